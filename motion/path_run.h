@@ -121,7 +121,7 @@ class PathRun {
   /// nothing runs, it is the place where the last path ended.
   const Point& step(Tick tick, Stretch* gone = nullptr);
   // The functions below refer to the tick just stepped. They are valid until another call changes the run.
-  // These two return the length along the chain at the beginning of the tick, and at a moment.
+  /// Return the length along the chain at the beginning of the tick, and at a moment.
   double began_at(const Stretch& gone, Tick tick) const { return along_at(gone, {.tick = tick - 1}); }
   double along_at(const Stretch& gone, Instant at) const;
   /// Returns the moment at which the run reaches a length along the chain between the tick's beginning and

@@ -1,4 +1,4 @@
-// Gives a device what it needs from the machines on its axes to skip many ticks in one step
+// What a device must know about the machines on its axes to skip many ticks in one step
 // (Device::fast_forward_to()): how far each axis can move before anything but positions changes, and what its
 // encoder will count.
 #pragma once
@@ -18,7 +18,7 @@ class ClearTravel {
   /// Returns how far an axis can move before anything but its position and its encoder count changes.
   virtual PulseRoom room(int axis) const = 0;
   virtual bool has_encoder(int axis) const = 0;
-  /// Returns the encoder count after this many more pulses, within the room.
+  /// Returns the encoder count after this many more pulses, which must be within the room.
   virtual std::int64_t encoder_counts(int axis, std::int64_t pulses) const = 0;
 
  protected:

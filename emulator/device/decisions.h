@@ -1,6 +1,6 @@
-// Records what a device's code has based its decisions on: the choices that it has looked up, and the cells
-// of its model's transition tables that have occurred. Only coverage reads the record. It is not part of the
-// state: a snapshot does not restore it, and two devices that differ in nothing else are equal.
+// Records what determined a device's decisions: the choices that it looked up, and the cells of its model's
+// transition tables that occurred. Only coverage reads the record. It is not part of the state: a snapshot
+// does not restore it, and two devices are equal even if their records differ.
 #pragma once
 
 #include <cstddef>
@@ -18,15 +18,16 @@ class Decisions {
   Decisions(std::size_t choices, std::span<const TransitionTable> tables);
 
   void ask(std::size_t choice) { asked_[choice] = 1; }
-  /// Returns where to note with a 1 that this choice, or one after it, is asked for. It stays where it is.
+  /// Returns the elements to set to 1 when this choice, or a later one, is looked up. They do not move in
+  /// memory.
   std::uint8_t* asked(std::size_t choice) { return &asked_[choice]; }
   void meet(std::size_t table, std::size_t state, std::size_t event) {
     Cells& cells = cells_[table];
     ++cells.counts[state * cells.events + event];
   }
 
-  /// Starts counting. Choices that were looked up before, and are not looked up again, are those whose
-  /// options the device stores when it is made or switched on.
+  /// Starts counting. Choices that were looked up before and are not looked up again are those whose options
+  /// the device stores when it is created or switched on.
   void begin();
   bool is_asked(std::size_t choice) const { return asked_[choice] != 0; }
   bool was_asked_before(std::size_t choice) const { return asked_before_[choice] != 0; }
@@ -45,7 +46,7 @@ class Decisions {
   std::vector<Cells> cells_;
 };
 
-/// The options in effect, by row, for code that looks them up while a device is being made.
+/// The selected options, by row, for code that looks them up while a device is created.
 struct AskedOptions {
   std::span<const std::uint8_t> numbers;
   Decisions* decisions = nullptr;  // null: decisions are not counted

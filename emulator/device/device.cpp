@@ -58,7 +58,8 @@ void Device::update_outputs(Tick /*tick*/) {}
 Tick Device::next_active_tick(Tick /*done*/) const { return kNever; }
 
 void Device::prefetch(Tick /*tick*/) const {
-  // This fetches only the first line of the device itself: its settings are large, and no tick reads them.
+  // This prefetches only the first line of the device itself, because its settings are large and no tick
+  // reads them.
   prefetch_line(this);
   if (inputs_changed_) understudy::prefetch(inputs_.data(), inputs_.size() * sizeof inputs_[0]);
 }

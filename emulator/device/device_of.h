@@ -1,5 +1,6 @@
-// The base of a device class `Itself`. Each function that asks for a facet returns the device if it derives
-// from that facet, and null otherwise. A device that has a facet as a member overrides that facet's function.
+// The base of a device class `Itself`. Each function that returns a facet returns the device if its class
+// derives from the facet, and null otherwise. A device that contains a facet as a member overrides the
+// function of that facet.
 #pragma once
 
 #include <type_traits>

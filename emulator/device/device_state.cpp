@@ -1,4 +1,4 @@
-// Reads and writes the part of a device's state that all models share: its inputs, its power and its time.
+// Reads and writes the part of a device's state that all models have: inputs, power and time.
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -25,9 +25,9 @@ struct StateOf<emulator::Device> {
   static constexpr auto fields =
       FieldList{field<&Value::inputs_>(), field<&Value::powered_>(), field<&Value::now_>()};
   static constexpr std::size_t members = 10;
-  /// These members are not part of the state: the device is made from its model, settings and choices, the
-  /// log and its memory of messages belong to the user, coverage reads the decisions, and the flag of changed
-  /// inputs only saves work.
+  /// These members are not part of the state: the device is created from its model, settings and choices; the
+  /// log and the list of mentioned items belong to the user; coverage reads the decisions; and the flag for
+  /// changed inputs only saves work.
   static constexpr std::size_t apart = 7;
   static void name_all(Value& all) {  // does not compile if the members change
     [[maybe_unused]] auto& [model, now, powered, inputs_changed, choices, decisions, inputs, settings, log,
@@ -43,7 +43,7 @@ namespace {
 
 using Common = CopiedFields<Device>;
 
-/// Reads the state that all models share, and checks that it belongs to a device of this model.
+/// Reads the state that all models have, and checks that it belongs to a device of this model.
 void read_common(const Model& model, StateReader& reader, Common& common) {
   std::apply([&](auto&... field) { (reader.read(field), ...); }, common);
   const auto& inputs = std::get<std::vector<std::int32_t>>(common);
@@ -92,7 +92,7 @@ std::function<void()> Device::read_state(StateReader reader) {
 }
 
 std::uint64_t Device::state_hash() const {
-  SharedTexts shared;  // the bytes hold only their digests
+  SharedTexts shared;  // the bytes contain only the digests
   return hash_of(save_state(shared));
 }
 

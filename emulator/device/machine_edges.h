@@ -1,7 +1,7 @@
-// Lists the positions along an axis at which the machine's switches change the levels of inputs, for a
-// device that detects edges at the exact pulse (Axes::meets_edges()). An input that is not listed keeps its
-// level at every position: it has no switch, or is held, stuck, or also driven by a wire, or pulses are
-// being lost.
+// The positions along an axis at which the machine's switches change the levels of inputs, for a device that
+// detects edges at the exact pulse (Axes::meets_edges()). An input that is not listed keeps its level at
+// every position: either it has no switch, or it is held, stuck or also driven by a wire, or pulses are being
+// lost.
 #pragma once
 
 #include <array>
@@ -17,31 +17,31 @@ struct MachineEdges {
     bool level_inside = true;
     std::int64_t first = 0;  // in the count of Axes::place_pulses()
     std::int64_t last = 0;
-    std::int64_t slack = 0;  // >= 0; once inside, the level stays this far beyond either end
+    std::int64_t slack = 0;  // >= 0; an input that is inside keeps its level this far beyond either end
     bool operator==(const Span&) const = default;
   };
-  /// Like Span, but the level holds for `width` pulses from every `at + k * period`.
+  /// Like Span, but the level applies for `width` pulses from each `at + k * period`.
   struct Index {
     int input = -1;
     bool level_inside = true;
     std::int64_t at = 0;
     std::int64_t width = 1;
     std::int64_t period = 0;  // 0: no index
-    // The positions of the machine's stops. Beyond a stop the levels are as at the stop.
+    // The positions of the machine's stops. Beyond a stop, the levels are those at the stop.
     std::int64_t first = INT64_MIN;
     std::int64_t last = INT64_MAX;
     bool operator==(const Index&) const = default;
   };
-  /// The count of the encoder: floor((place - origin) * counts / pulses), between the machine's stops.
+  /// The encoder count: floor((place - origin) * counts / pulses), between the machine's stops.
   struct Encoder {
-    std::int64_t counts = 0;  // 0: no encoder, or its count cannot be known before the tick is over
+    std::int64_t counts = 0;  // 0: no encoder, or the count cannot be known before the tick ends
     std::int64_t pulses = 1;
     std::int64_t origin = 0;
     std::int64_t first = INT64_MIN;
     std::int64_t last = INT64_MAX;
     bool mirrored = false;     // the device counts against the motor's direction
-    bool reversed = false;     // its counts fall as the motor's pulses rise
-    std::int64_t surplus = 0;  // extra counts
+    bool reversed = false;     // the counts decrease while the motor's pulses increase
+    std::int64_t surplus = 0;  // additional counts
     bool operator==(const Encoder&) const = default;
 
     /// Converts to another linear function with the same members.
@@ -75,7 +75,7 @@ struct MachineEdges {
     }
     return nullptr;
   }
-  /// Returns the edges as seen by a device that counts against the motor's direction.
+  /// Returns the edges as they appear to a device that counts against the motor's direction.
   MachineEdges reversed() const {
     MachineEdges made = *this;
     for (std::size_t i = 0; i < span_count; ++i) {

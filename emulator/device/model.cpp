@@ -41,8 +41,8 @@ ProgramMistake no_program(const Model& model) {
 
 namespace {
 
-/// Checks what every reader of a model relies on. make_device() checks the facets of a device when it makes
-/// one.
+/// Checks what all users of a model rely on. make_device() checks the facets of a device when it creates the
+/// device.
 const Model& whole(const Model& model) {
   if (model.line.ports.empty()) throw std::logic_error(std::string(model.name) + ": has no port on its line");
   for (const PortRow& port : model.line.ports) {
@@ -205,15 +205,15 @@ void require_choices(const Model& model, const DeviceSettings& settings) {
   }
 }
 
-/// Returns the shortest text that reads back as this number.
+/// Returns the shortest text that parses to this number.
 std::string shortest_text(double number) {
   std::array<char, 32> text{};
   const auto [end, error] = std::to_chars(text.data(), text.data() + text.size(), number);
   return error == std::errc{} ? std::string(text.data(), end) : std::string();
 }
 
-/// Writes a register. `given` is the value as the user gave it; `value_for` returns nothing if the register
-/// cannot hold it.
+/// Writes a register. `given` is the value as the user wrote it. `value_for` returns nothing if the register
+/// cannot contain the value.
 void set_register(Device& device, const std::string& name, const std::string& given,
                   const std::function<std::optional<Value>(const NamedPlace&)>& value_for) {
   RegisterBank* const bank = device.register_bank();
@@ -259,8 +259,8 @@ void set_registers(Device& device, const DeviceSettings& settings) {
   }
 }
 
-/// Writes the station number from the settings to the register that stores it. If the settings have none, the
-/// number in the memory stays.
+/// Writes the station number from the settings to the register that stores it. If the settings do not contain
+/// one, the number in the memory does not change.
 void set_station_number(Device& device) {
   const auto& numbers = device.model().line.station_numbers;
   if (!numbers || numbers->kept_in.empty() || !device.settings().address) return;
@@ -272,7 +272,7 @@ void set_station_number(Device& device) {
 void load_memory(Device& device, const NvImage& image) {
   if (device.memory() == nullptr)
     throw NvError(std::string(device.model().name) + " has no non-volatile memory; expected no NV image");
-  // A memory whose content the bench gives does not name a firmware.
+  // If the memory's content comes from the bench, it does not contain a firmware version.
   const auto& firmwares = device.model().firmwares;
   if (!image.firmware.empty() && image.model == device.model().name &&
       std::find(firmwares.begin(), firmwares.end(), parse_firmware(image.firmware)) == firmwares.end()) {

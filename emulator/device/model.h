@@ -1,4 +1,4 @@
-// A model is a kind of controller, as its maker's manual defines it. All of it is data, except the device
+// A model is a kind of controller, as the maker's manual defines it. All of it is data, except the device
 // class that `make` creates.
 #pragma once
 
@@ -20,7 +20,7 @@
 #include "emulator/device/register_map/hazards.h"
 #include "emulator/device/register_map/register_map.h"
 #include "emulator/device/transition_table.h"
-#include "pty/line_settings.h"  // IWYU pragma: export: rows of models have them
+#include "pty/line_settings.h"  // IWYU pragma: export: rows of models contain them
 
 namespace understudy::emulator {
 
@@ -28,19 +28,19 @@ class CommandWindow;
 class Device;
 class ProgramLanguage;
 
-/// A row of a model's parameter numbers: the `count` numbers from `first` on belong to the registers called
-/// `register_name`, beginning with the first of these.
+/// A row of a model's parameter numbers: the `count` numbers from `first` on belong to the registers with the
+/// name `register_name`, beginning with the first such register.
 struct ParameterRow {
   int first = 0;
   int count = 1;
   std::string_view register_name;  // as in the register table, "{}" for the number
-  std::string_view letter{};       // before the number, if any: "X" in X20
-  bool of_each_axis = false;       // one number covers all axes: X20 is one register per axis
+  std::string_view letter{};       // the letter before the number, if any: "X" in X20
+  bool of_each_axis = false;       // a number refers to all axes: X20 is one register per axis
 };
 
-/// A row of a table of parameters, for a model whose values have no registers.
+/// A row of a parameter table, for a model whose parameters are not registers.
 struct NamedParameterRow {
-  std::string_view number;  // "PN10", if the maker counts them
+  std::string_view number;  // "PN10", if the maker numbers them
   std::string_view name;    // "VM"
   int width = 32;           // the width in bits
   bool persistent = true;
@@ -49,21 +49,20 @@ struct NamedParameterRow {
   std::string_view unit{};
   std::string factory{};
   std::string_view meaning{};
-  std::string_view not_implemented{};  // what is missing, if it is only stored
+  std::string_view not_implemented{};  // if the parameter is only stored, what is missing
 };
 
-/// A section of a manual that is not in English. A model's rows name it as the manual does, by its title or
-/// its number.
+/// A section of a manual that is not in English. A model's rows refer to it as the manual does, by title or
+/// number.
 struct SectionRow {
   std::string_view name;
   std::string_view in_english;
 };
 
-/// A part of a manual whose choices one file proves: docs/fidelity/proofs/MODEL/NAME.yaml.
+/// A part of a manual whose choices are proved by one file, docs/fidelity/proofs/MODEL/NAME.yaml.
 struct ProofRow {
   std::string_view name;
-  /// The sections, separated by '|'. A number includes its subsections, except those that an earlier row
-  /// names.
+  /// The sections, separated by '|'. A number includes its subsections, except those in an earlier row.
   std::string_view sections;
 };
 
@@ -72,23 +71,23 @@ struct CommandRow {
   std::string_view command;  // the word that identifies it: "MA"
   std::string_view syntax;   // "MA x"
   std::string_view meaning;
-  std::string_view where{};  // where it may be used
+  std::string_view where{};  // where it can be used
 };
 
-/// A connection of the device to the outside, as its manual names it.
+/// A connection of the device to the outside, named as in its manual.
 struct TerminalRow {
   enum class Kind : std::uint8_t {
     digital_in,     // 1: conducting
     digital_out,    // 1: conducting
     analog_in,      // millivolts
-    analog_number,  // an analog input whose values the maker gives without a unit
+    analog_number,  // an analog input whose values have no unit in the manual
     dip_switch,     // on the housing: 1 is ON
     counted_in,     // a hand wheel, pulses or encoder phases: the total count so far, modulo 2^32
     analog_out,     // millivolts
-    pulse_out,      // digital; its pulses may be shorter than a tick, and are counted
+    pulse_out,      // digital; its pulses are counted, because they may be shorter than a tick
   } kind;
   std::string_view name;
-  std::int32_t lowest = 0;  // the range of its levels
+  std::int32_t lowest = 0;  // the range of the levels
   std::int32_t highest = 1;
 };
 
@@ -109,7 +108,7 @@ constexpr bool is_in_millivolts(TerminalRow::Kind kind) {
 }
 
 /// A group of neighbouring digital inputs or outputs, for models that have hundreds of them. Observers show
-/// the group as one word, with the first in bit 0. Each terminal can still be used by its own name.
+/// the group as one word, with the first terminal in bit 0. Each terminal can still be used by its own name.
 struct TerminalGroup {
   static constexpr int kMax = 32;
   std::string_view name;
@@ -117,7 +116,7 @@ struct TerminalGroup {
   int count = 1;
 };
 
-/// A motor axis, and the inputs that the switches of its machine are wired to.
+/// A motor axis, and the inputs to which the switches of its machine are connected.
 struct AxisRow {
   std::string_view name;       // "A": a bench calls its machine DEVICE.A
   int upper_limit_input = -1;  // numbers of terminals
@@ -131,44 +130,44 @@ struct AxisRow {
   int near_home_input = -1;
   int mark_input = -1;
   int index_input = -1;  // the index pulse of the encoder
-  // The registers, if any, in which 0 means that the device does not use its limit inputs.
+  // The registers, if any, whose value 0 means that the device does not use its limit inputs.
   std::string_view upper_limit_used_by{};
   std::string_view lower_limit_used_by{};
 };
 
-/// A protocol on a line. Each protocol has one object, in addition to the facet that speaks it (modbus/,
-/// text/). The world's object for the protocol (world/protocol/) defines what it means for a line and its
-/// hosts.
+/// A protocol on a line. Each protocol has one object, in addition to the facet that implements it (modbus/,
+/// text/). The world's object for the protocol (world/protocol/) defines what the protocol means for a line
+/// and its hosts.
 struct Protocol {
   std::string_view name;  // "Modbus", for messages
 };
 
-/// The station numbers that a device may have. A device has one number, the same on all its lines.
+/// The station numbers that a device can have. A device has one number, which is the same on all its lines.
 struct StationNumbers {
   int lowest = 1;
   int highest = 247;
-  std::string_view kept_in{};  // the register that holds it; empty: the bench sets it, and it never changes
+  std::string_view kept_in{};  // the register that stores it; empty: the bench sets it, and it never changes
 };
 
-/// A serial port, which connects a device to a line.
+/// A serial port that connects a device to a line.
 struct PortRow {
   enum class Kind : std::uint8_t {
     rs232,  // point to point: the device is alone on its line
     rs485,
   } kind = Kind::rs485;
-  std::string_view name;       // letters, digits, _ and -, as in a bench
-  std::span<const int> bauds;  // the speeds it can be set to; the factory setting is the first
+  std::string_view name;       // letters, digits, _ and -, as in a bench file
+  std::span<const int> bauds;  // the selectable speeds; the first is the factory setting
   pty::LineSettings settings;  // the other settings; `baud` is replaced by the chosen speed
 };
 
-/// The model's rules for its lines, whatever their protocol.
+/// The model's rules for its lines, independent of their protocol.
 struct LineRules {
   const Protocol& protocol;
-  std::span<const PortRow> ports;                   // at least one; if a bench names none, the first is used
+  std::span<const PortRow> ports;                   // at least one; the first one is the default
   std::optional<StationNumbers> station_numbers{};  // none: a device has no number, and is alone on its line
 };
 
-/// A limit for one request that is lower than the standard's.
+/// A limit for a request that is lower than the limit in the standard.
 struct FunctionLimit {
   std::uint8_t code = 0;
   int max = 0;  // the maximum number of bits or registers
@@ -182,48 +181,48 @@ struct IdentityObject {
 
 /// The model's rules for receiving Modbus RTU frames.
 struct RtuRules {
-  pty::SimTime end_silence{0};              // the silence that ends a frame; a device replies no earlier
+  pty::SimTime end_silence{0};              // the silence that ends a frame; also the minimum reply delay
   std::span<const std::uint8_t> functions;  // supported function codes
   std::span<const FunctionLimit> limits{};
   std::span<const IdentityObject> identity{};  // for function 43/14, in ascending order
   std::string_view server_id{};                // for function 17
 };
 
-/// The settings from which one device of a model is made.
+/// The settings from which a device of a model is created.
 struct DeviceSettings {
   std::string name;
   Firmware firmware = 0;                       // 0: the model's default
-  std::optional<int> address{};                // its station number; none: 1, or the number in its memory
-  std::vector<int> bauds{};                    // the speeds of its ports; 0 or missing: the factory setting
-  int modules = 0;                             // the number of modules of a chain; 0: the model's default
-  std::map<std::string, std::string> choices;  // options; other choices have defaults
-  std::map<std::string, bool> dip;             // switches on the housing, by the terminal's name
-  std::optional<NvImage> nv;                   // the content of its memory; by default the factory settings
-  std::string program;                         // text, loaded when it is made
+  std::optional<int> address{};                // the station number; none: 1, or the number in the memory
+  std::vector<int> bauds{};                    // the speeds of the ports; 0 or missing: the factory setting
+  int modules = 0;                             // how many modules a chain has; 0: the model's default
+  std::map<std::string, std::string> choices;  // options; all other choices have their defaults
+  std::map<std::string, bool> dip;             // switches on the housing, by terminal name
+  std::optional<NvImage> nv;                   // the content of the memory; by default the factory settings
+  std::string program;                         // the text that is loaded when the device is created
   std::string program_name;                    // the file that contains the program, for messages
-  std::vector<std::pair<std::string, Value>> set;  // registers written when it is made, in this order
+  std::vector<std::pair<std::string, Value>> set;             // registers to write at creation, in this order
   std::vector<std::pair<std::string, double>> assignments{};  // like `set`, for a model without registers
 };
 
-/// The files that `understudy init` writes for a beginner: a bench, and the steps of a first move on it.
+/// The files that `understudy init` writes for a beginner: a bench, and the steps of a first move.
 struct FirstFiles {
   std::string_view bench;
   std::string_view steps;
-  std::string_view first_move{};  // steps that move an axis in any bench, if the scenario's steps may not
+  std::string_view first_move{};  // steps that move an axis in any bench, if the scenario's are not allowed
 };
 
-/// A step that stops everything that moves: a register, or bits of it, and their value, a command of the
-/// window, or a line of text, whichever the model has.
+/// A step of stopping everything that moves: a register or some of its bits, with a value; a command of the
+/// window; or a line of text, depending on the model.
 struct StopStep {
   std::string_view text;
   Value value = 1;  // the value to write to a register
 };
 
-/// What a command says in numbers.
+/// The numbers that a command contains.
 struct CommandNumbers {
   std::vector<std::string> names{};  // all names of the command: "MA", "T0MA"
-  /// Each of its numbers, in order. Nothing stands for a number that the text does not have: the controller
-  /// takes it from a variable or an input.
+  /// All of its numbers, in order. An element is empty if the text does not contain the number, because the
+  /// controller reads it from a variable or an input.
   std::vector<std::optional<double>> numbers{};
 };
 
@@ -231,60 +230,60 @@ struct Model {
   std::string_view name;  // "simple2-r3"
   std::string_view title;
   std::span<const Firmware> firmwares;     // oldest first; the last is the default
-  const RegisterMap* registers = nullptr;  // null: it has none
+  const RegisterMap* registers = nullptr;  // null: the model has no registers
   std::span<const ParameterRow> parameters{};
   std::span<const NamedParameterRow> named_parameters{};
-  const CommandWindow* window = nullptr;      // for commands that have names; null: there are none
-  const ProgramLanguage* language = nullptr;  // the language of its devices' programs; null: they run none
+  const CommandWindow* window = nullptr;      // for commands that have names; null: there is no window
+  const ProgramLanguage* language = nullptr;  // of the devices' programs; null: they do not run programs
   std::span<const CommandRow> commands{};
   std::span<const ChoiceRow> choices;
   std::span<const SectionRow> sections{};
   std::span<const ProofRow> proofs{};
   std::span<const TransitionTable> transitions{};
-  bool csv_has_bits = true;  // false: the columns of its CSV were fixed before bits had names
+  bool csv_has_bits = true;  // false: the columns of the CSV were fixed before bits had names
   std::span<const TerminalRow> terminals;
   std::span<const TerminalGroup> terminal_groups{};
   std::span<const AxisRow> axes;
   std::span<const std::string_view> state_registers;  // the registers that best show what the device is doing
   std::span<const std::string_view>
-      known_limitations;  // what is missing beyond single registers, one sentence each
+      known_limitations;  // what is missing beyond individual registers, one sentence each
   LineRules line;
   std::optional<RtuRules> rtu{};            // for a model with ModbusStation
-  const FirstFiles* first_files = nullptr;  // null: there are none
-  std::span<const StopStep> stop{};  // executed in this order; none: a device cannot be stopped over its line
-  /// Returns what a message to the window can do; null: there is no window.
+  const FirstFiles* first_files = nullptr;  // null: the model has none
+  std::span<const StopStep> stop{};         // in this order; empty: a device cannot be stopped over its line
+  /// Returns the hazards of a message to the window. Null: there is no window.
   Hazards (*hazards_of_command)(std::span<const std::uint16_t> words) = nullptr;
-  /// Returns what a line of text can do; null: the device accepts no text lines.
+  /// Returns the hazards of a line of text. Null: the device does not accept text lines.
   Hazards (*hazards_of_line)(std::string_view line) = nullptr;
-  /// Returns what a line of text does to the entry of a program; null: programs are not entered as lines.
+  /// Returns the effect of a line of text on program entry. Null: programs are not entered as lines.
   EditMark (*edit_mark_of_line)(std::string_view line) = nullptr;
-  /// Returns the numbers of a line of text, or of a message to the window as text. Nothing: it is no command.
-  /// Null: it takes neither.
+  /// Returns the numbers in a line of text, or in the text of a message to the window. Returns nothing if it
+  /// is not a command. Null: the device accepts neither.
   std::optional<CommandNumbers> (*numbers_of_command)(std::string_view text) = nullptr;
-  int max_modules = 0;  // the largest number of modules in one device; 0: it is not a chain
-  /// The description file's text with everything that belongs to it, if a file describes the model.
-  /// ModelFiles::parse() makes the same model from it.
+  int max_modules = 0;  // the maximum number of modules in a device; 0: the device is not a chain
+  /// If a file describes the model, the text of that file with everything that belongs to it.
+  /// ModelFiles::parse() creates the same model from it.
   std::string_view description{};
-  /// Makes a device. make_device() checks the settings before it calls this.
+  /// Creates a device. make_device() checks the settings before it calls this.
   std::function<std::unique_ptr<Device>(const DeviceSettings& settings)> make;
 };
 
-/// Makes models from files that describe them (docs/import.md). The models live as long as this object. A
-/// description that was read before returns the same model again. Both functions throw FileError, and any
-/// thread may call them.
+/// Creates models from files that describe them (docs/import.md). The models live as long as this object. If
+/// a description was read before, the same model is returned again. Both functions throw FileError and can be
+/// called from any thread.
 class ModelFiles {
  public:
   virtual ~ModelFiles() = default;
   /// Adds the files that it reads to `files`.
   virtual const Model& load(const std::string& path, std::vector<FileClaim>& files) = 0;
-  /// Parses a text that is complete in itself. `name` stands for the file in messages.
+  /// Parses a text that is complete in itself. Messages contain `name` instead of a file name.
   virtual const Model& parse(const std::string& text, const std::string& name) = 0;
   /// Returns remarks on what the model's files leave open, and on how that was interpreted.
   virtual std::vector<FileError::Diagnostic> remarks_on(const Model& model) const = 0;
 };
 
-/// A model in a list of names. Its tables are made on first use, because that takes longer than most
-/// commands.
+/// A model in a list of names. Its tables are created on first use, because creating them takes longer than
+/// most commands.
 class ListedModel {
  public:
   constexpr ListedModel(std::string_view name, const Model& (*make)()) : name_(name), make_(make) {}
@@ -301,23 +300,23 @@ class ListedModel {
   const Model& (*make_)() = nullptr;
 };
 
-/// The models that benches may name, and the object that makes models from files, or null if no files are
-/// read.
+/// The models that a bench can name, and the object that creates models from files. The object is null if no
+/// files are read.
 struct ModelList : std::span<const ListedModel> {
   using std::span<const ListedModel>::span;
   ModelList(std::span<const ListedModel> listed, ModelFiles* reader)
       : std::span<const ListedModel>(listed), files(reader) {}
   ModelFiles* files = nullptr;
 };
-/// Returns null if there is no model of that name. Makes no other model.
+/// Returns null if there is no model with this name. Does not create any other model.
 const Model* find_model(ModelList models, std::string_view name);
-/// Returns true if the name is that of a model file: "drive.yaml".
+/// Returns true if the name is that of a model file, such as "drive.yaml".
 bool names_model_file(std::string_view name);
 
-/// Returns the number of a terminal in its model's table, or -1 if there is no such name; find_axis() does so
-/// for axes.
+/// Returns the number of a terminal in its model's table, or -1 if there is no such name. find_axis() does
+/// the same for axes.
 int find_terminal(const Model& model, std::string_view name);
-/// Returns the group with that name; find_group_of() returns the group that begins with that terminal. Both
+/// Returns the group with that name. find_group_of() returns the group that begins with that terminal. Both
 /// return null if there is none.
 const TerminalGroup* find_group(const Model& model, std::string_view name);
 const TerminalGroup* find_group_of(const Model& model, int first_terminal);
@@ -328,35 +327,36 @@ std::optional<std::size_t> find_port(const Model& model, std::string_view name);
 std::string port_text(const Model& model, std::size_t port);
 /// Returns no rows if the model has no registers.
 std::span<const RegisterRow> register_rows(const Model& model);
-/// Returns a register by its name, or nothing if there is none of that name.
+/// Returns the register with that name, or nothing if there is none.
 std::optional<NamedPlace> find_register(const Model& model, std::string_view name, Firmware firmware);
-/// Returns one line that explains why there is no such register.
+/// Returns a one-line explanation of why there is no such register.
 std::string why_no_register(const Model& model, std::string_view name, Firmware firmware);
 
-/// Reports a wrong setting of a device: its name, and what was expected.
+/// Reports a wrong setting of a device: the name of the setting, and what was expected.
 struct SettingError : std::runtime_error {
   SettingError(std::string setting_name, const std::string& what_is_wrong)
       : std::runtime_error(setting_name + ": " + what_is_wrong), setting(std::move(setting_name)) {}
   std::string setting;
 };
 
-/// Checks the settings against the model and makes the device. Gives it its memory, power and program, and
-/// writes the registers of `set`; persistent ones are stored at once. Throws SettingError, NvError,
-/// ProgramError. `log` receives the device's messages, from the settings on.
+/// Checks the settings against the model and creates the device with its memory, power and program. Writes
+/// the registers of `set`; persistent ones are stored immediately. Throws SettingError, NvError,
+/// ProgramError. `log` receives the device's messages, including those about the settings.
 std::unique_ptr<Device> make_device(const Model& model, const DeviceSettings& given,
                                     std::function<void(const std::string&)> log = {});
 
-/// Returns the settings with the firmware that they imply. Throws SettingError for errors that the model
-/// alone reveals; errors in the switches and the memory are found when the device is made.
+/// Returns the settings with the firmware that they imply. Throws SettingError for errors that can be
+/// detected from the model alone. Errors in the switches and the memory are detected when the device is
+/// created.
 DeviceSettings checked_settings(const Model& model, const DeviceSettings& given);
-/// Returns all mistakes that loading the program into a device with these settings would report. Throws
-/// SettingError.
+/// Returns all mistakes that would be reported if the program were loaded into a device with these settings.
+/// Throws SettingError.
 std::vector<ProgramMistake> check_program(const Model& model, std::string_view text,
                                           const DeviceSettings& given);
-/// Returns suspicious places in a program that loads. Throws SettingError.
+/// Returns suspicious places in a program that loads without errors. Throws SettingError.
 std::vector<ProgramMistake> program_warnings(const Model& model, std::string_view text,
                                              const DeviceSettings& given);
-/// Returns the mistake that every program has if the model has no language.
+/// Returns the mistake to report for any program if the model has no language.
 ProgramMistake no_program(const Model& model);
 /// Returns 152 for "1.52", or 0 if the text is not a version.
 Firmware parse_firmware(std::string_view text);

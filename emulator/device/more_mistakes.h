@@ -10,7 +10,7 @@
 
 namespace understudy::emulator {
 
-/// If the list is full, adds a note to its last mistake that there may be more.
+/// If the list is full, adds a note to the last mistake that there may be more.
 inline std::vector<ProgramMistake> with_word_of_more(std::vector<ProgramMistake> mistakes) {
   if (mistakes.size() >= kMaxMistakes) {
     mistakes.back().what += " (mistake " + std::to_string(kMaxMistakes) + "; reading stopped here)";
@@ -18,7 +18,8 @@ inline std::vector<ProgramMistake> with_word_of_more(std::vector<ProgramMistake>
   return mistakes;
 }
 
-/// Returns " (and 3 more)" for a message that quotes only one mistake. A full list may be incomplete.
+/// Returns " (and 3 more)" for a message that quotes only one mistake. If the list is full, there may be even
+/// more.
 inline std::string and_more(const std::vector<ProgramMistake>& mistakes) {
   if (mistakes.size() < 2) return "";
   const std::string at_least = mistakes.size() >= kMaxMistakes ? "at least " : "";

@@ -1,5 +1,5 @@
 // The named values of a device without registers (T2PE, R3), for scenarios, traces and the control socket.
-// They bypass the line, so they take no time and do not appear in the dialogue. This is a facet:
+// Access to them bypasses the line, so it takes no time and does not appear in the dialogue. This is a facet:
 // Device::named_values() is null if a device has none.
 #pragma once
 
@@ -16,11 +16,11 @@ class NamedValues {
  public:
   /// Returns nothing if there is no value of that name.
   virtual std::optional<double> value_named(std::string_view name) const = 0;
-  /// Returns the first tick after `done` at which the value may change with time alone, or kNever if it does
-  /// not depend on time.
+  /// Returns the first tick after `done` in which the value may change merely because time passes, or kNever
+  /// if it does not depend on time.
   virtual Tick next_change(std::string_view /*name*/, Tick /*done*/) const { return kNever; }
-  /// Sets a value as a command over the line would. Returns nothing, or why it is refused ("is out of range;
-  /// expected 0 to 8"); then nothing has changed.
+  /// Sets a value as a command over the line would. Returns nothing, or why the value is refused ("is out of
+  /// range; expected 0 to 8"); in that case, nothing changes.
   virtual std::optional<std::string> assign(std::string_view name, double value) = 0;
   /// Returns the most common names, for messages that suggest one.
   virtual std::vector<std::string> names() const = 0;

@@ -1,5 +1,5 @@
-// Programs as numbers: the form in which a program goes over the wire, with one row of numbers for each line.
-// `asm` prints it and `disasm` reads it.
+// Programs as numbers: the form in which a program is sent over the line, with one row of numbers per line.
+// `asm` prints this form and `disasm` reads it.
 #pragma once
 
 #include <cstddef>
@@ -24,17 +24,17 @@ struct CellForm {
 
 struct CellRow {
   std::vector<std::int64_t> cells;
-  int line = 0;  // the line in the text that the row was read from; 0: none
+  int line = 0;  // the text line from which the row was read; 0: none
 };
 
-/// A facet of a language. It is null if the language's programs have no such form.
+/// A facet of a language. It is null if programs in the language do not have this form.
 class ProgramCells {
  public:
   virtual CellForm cell_form() const = 0;
   /// Throws ProgramError. `settings` are as for ProgramLanguage::check().
   virtual std::vector<CellRow> assemble(std::string_view text, const DeviceSettings& settings) const = 0;
-  /// The rows must have the format of cell_form(). Throws ProgramError with line numbers of the text that the
-  /// rows were read from.
+  /// The rows must have the format of cell_form(). Throws ProgramError, with line numbers of the text from
+  /// which the rows were read.
   virtual std::string disassemble(const std::vector<CellRow>& rows, const DeviceSettings& settings) const = 0;
 
  protected:

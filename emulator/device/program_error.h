@@ -1,4 +1,4 @@
-// Reports what is wrong with the text of a user's program, and where.
+// Reports what is wrong in the text of a user's program, and where.
 #pragma once
 
 #include <stdexcept>
@@ -9,7 +9,7 @@
 namespace understudy::emulator {
 
 struct ProgramMistake {
-  int line = 0;      // the line of the text, from 1; 0: the whole text
+  int line = 0;      // the line in the text, from 1; 0: the whole text
   int column = 0;    // the column in bytes, from 1; 0: the whole line
   std::string what;  // "operand 2: 'maybe' is not a level; expected ON or OFF"
 
@@ -31,13 +31,13 @@ inline std::string in_text(const ProgramMistake& mistake) {
   return "line " + std::to_string(mistake.line) + column + ": " + mistake.what;
 }
 
-/// Returns "column 6: axis: 'W' is not one; ...", for a text of one line.
+/// Returns "column 6: axis: 'W' is not one; ...", for a text that consists of one line.
 inline std::string in_line(const ProgramMistake& mistake) {
   return (mistake.column == 0 ? "" : "column " + std::to_string(mistake.column) + ": ") + mistake.what;
 }
 
-/// Thrown for a program that a device cannot load. It lists all mistakes in the order of the text, at least
-/// one; what() quotes the first.
+/// Thrown for a program that a device cannot load. It contains all mistakes (at least one) in the order of
+/// the text; what() quotes the first one.
 struct ProgramError : std::runtime_error {
   explicit ProgramError(std::vector<ProgramMistake> all)
       : std::runtime_error(all.front().what), mistakes(std::move(all)) {}

@@ -1,6 +1,6 @@
 // The language in which users write programs for the devices of a model. Each language has one object, to
-// which the model's `language` points. A device loads a text and returns it (user_program.h); this class has
-// the functions that need no device.
+// which the `language` member of the model points. A device loads a text and returns it (user_program.h);
+// this class contains the functions that do not need a device.
 #pragma once
 
 #include <cstdint>
@@ -30,22 +30,22 @@ struct InstructionRow {
   std::string_view mnemonic;
   std::span<const OperandRow> operands{};
   std::string_view areas{};  // the parts of a program that may contain it: "C X Y Z U"
-  int size = 0;              // the size in program memory, in the language's unit; 0: unknown
-  std::string_view cost{};   // its time, for people: "3 lines", "until the axes stop"
+  int size = 0;              // the size in program memory, in the unit of the language; 0: unknown
+  std::string_view cost{};   // the execution time, for people: "3 lines", "until the axes stop"
   std::string_view meaning{};
 };
 
-/// A request that a host sends to start or stop a program, for buttons of user interfaces.
+/// A request with which a host starts or stops a program, for the buttons of user interfaces.
 struct ProgramControl {
   enum class By : std::uint8_t {
-    registers,  // "M8596=0 M8596=1": one write after the other
-    command,    // "RSM_MP_CALL {}": by its name (Model::window)
+    registers,  // "M8596=0 M8596=1": these writes, one after the other
+    command,    // "RSM_MP_CALL {}": a command of the window, by its name (Model::window)
     text,       // "G": a line of text
   };
   std::string_view word;  // "start"
   By by = By::registers;
   std::string_view what;
-  // The limits of the number that replaces {} in `what`, if `what` contains it.
+  // If `what` contains {}, the limits of the number that replaces it.
   int lowest = 0;
   int highest = 0;
 };
@@ -54,22 +54,23 @@ class ProgramLanguage {
  public:
   /// Returns the name of the format: "Simple2-R3 listing".
   virtual std::string_view name() const = 0;
-  /// Returns the usual ending of file names: ".lst".
+  /// Returns the usual ending of its file names: ".lst".
   virtual std::string_view file_ending() const = 0;
-  /// Returns no rows if another table of the model has the instructions (Model::commands).
+  /// Returns no rows if the instructions are in another table of the model (Model::commands).
   virtual std::span<const InstructionRow> instructions() const { return {}; }
-  /// Returns the names of the operand cells, if every instruction has the same fixed cells; each row then has
-  /// one OperandRow for each cell. Returns none if instructions have individual operands.
+  /// If all instructions have the same operand cells, returns the names of the cells; each row then has one
+  /// OperandRow per cell. Otherwise, returns none.
   virtual std::span<const std::string_view> operand_cells() const { return {}; }
-  /// Returns all mistakes in a text, in its order, as loading it into a device made from `settings` would
-  /// report them. The settings have been checked and name a firmware.
+  /// Returns all mistakes in a text, in order, that loading it into a device created from `settings` would
+  /// report. The settings have been checked and contain a firmware version.
   virtual std::vector<ProgramMistake> check(std::string_view text, const DeviceSettings& settings) const = 0;
-  /// Returns places in a text that loads but probably does not mean what it says, such as a label defined
-  /// twice.
+  /// Returns the places in a text that loads but probably does not do what its author intended, such as a
+  /// label that is defined twice.
   virtual std::vector<ProgramMistake> warnings(std::string_view, const DeviceSettings&) const { return {}; }
   /// Returns the parts of a text, for observers of the program. Returns none if the text does not load.
   virtual std::vector<ProgramPart> parts(std::string_view, const DeviceSettings&) const { return {}; }
-  /// Returns true if each part is a program that runs alongside the others; false if parts call each other.
+  /// Returns true if each part is a program that runs concurrently with the others, and false if the parts
+  /// call each other.
   virtual bool parts_run_at_once() const { return false; }
   virtual std::span<const ProgramControl> controls() const { return {}; }
   virtual const ProgramCells* cells() const { return nullptr; }

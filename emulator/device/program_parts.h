@@ -1,4 +1,4 @@
-// Lists the parts of a program and their instructions, as observers count them (base/program_watch.h).
+// The parts of a program and their instructions, as observers count them (base/program_watch.h).
 #pragma once
 
 #include <string>
@@ -7,8 +7,8 @@
 namespace understudy::emulator {
 
 struct ProgramLine {
-  int text_line = 0;  // the line in the text that it was read from, counted from 1; 0: none
-  std::string code;   // normalized: equal instructions have equal codes
+  int text_line = 0;  // the text line from which it was read, counted from 1; 0: none
+  std::string code;   // normalized, so that equal instructions have equal codes
   bool decides = false;
 
   bool operator==(const ProgramLine& other) const { return code == other.code; }

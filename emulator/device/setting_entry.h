@@ -1,4 +1,4 @@
-// Reports one wrong entry of a setting that has many entries.
+// Reports a wrong entry of a setting that has several entries.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@ namespace understudy::emulator {
 
 /// An error in `set`, `choices` or `dip`.
 struct SettingEntryError : SettingError {
-  /// `message` is the text for messages that do not name the entry.
+  /// `message` is for messages that do not name the entry.
   SettingEntryError(std::string setting_name, std::string entry_name, std::string what_is_wrong,
                     const std::string& message)
       : SettingError(std::move(setting_name), message),

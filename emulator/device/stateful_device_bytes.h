@@ -1,5 +1,5 @@
-// Defines the members declared in stateful_device.h; it needs the fields of the state. One source of a model
-// includes this.
+// Defines the members that stateful_device.h declares, for which it needs the fields of the state. One source
+// file of each model includes it.
 #pragma once
 
 #include <functional>

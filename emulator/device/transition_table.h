@@ -1,5 +1,5 @@
-// A model's transition table: how a part of its devices reacts to each event in each state. The code looks up
-// the model's own tables; this is their outline, for coverage.
+// A model's transition table, which defines how a part of its devices reacts to each event in each state. The
+// code uses the model's own tables; this is their outline, for coverage.
 #pragma once
 
 #include <cstddef>
@@ -16,11 +16,11 @@ struct TransitionTable {
   std::string_view name;  // "reactions of an axis"
   std::vector<std::string> states;
   std::vector<std::string> events;
-  /// Returns false for a cell that cannot occur. Null: each can.
+  /// Returns false for a cell that cannot occur. Null: all cells can occur.
   bool (*can_occur)(std::size_t state, std::size_t event) = nullptr;
 };
 
-/// Returns the names of an enumeration's first values, with spaces: "in alarm".
+/// Returns the names of the first values of an enumeration, with spaces: "in alarm".
 template <class T, std::size_t count>
 std::vector<std::string> words_of() {
   const auto word = [](std::string_view name) {

@@ -1,4 +1,5 @@
-// The list of all controllers. The folders that run them do not depend on this list: they receive it.
+// The list of all controllers. The folders that run controllers do not depend on this list; they receive it
+// as an argument.
 #pragma once
 
 #include "emulator/device/model.h"

@@ -30,7 +30,7 @@ std::string lower_case(std::string_view name) {
   return text;
 }
 
-/// Returns the digits of "JMP7" or "@7", which give a cell's value directly.
+/// Returns the digits of "JMP7" or "@7", which directly specify the value of a cell.
 std::string_view digits_of_flag(std::string_view text) {
   if (text.starts_with('@')) return text.substr(1);
   const std::string_view digits = after_prefix(text, "JMP");
@@ -67,18 +67,18 @@ class Assembler {
     fill_in_flags();
   }
 
-  /// The marks before an instruction, or alone on the lines above it.
+  /// The marks before an instruction, including those that are alone on the lines above it.
   struct Marks {
-    std::vector<Token> names;         // labels that get their own flag
-    std::optional<Token> mark;        // the first of them
+    std::vector<Token> names;         // labels that will be assigned a flag
+    std::optional<Token> mark;        // the first mark
     std::optional<Token> flag_token;  // the mark that sets the JMP cell, if any
     std::optional<std::uint8_t> flag;
-    bool promises_flag = false;  // by "JMP7:", which must then lead here
+    bool promises_flag = false;  // true for "JMP7:", whose flag must then lead to this line
   };
 
   struct FlagUse {
     Token token;
-    int number;  // the program line whose DATA1 it is
+    int number;  // the program line that has the flag in DATA1
   };
 
   void fail(const Token& token, std::string field, std::string what, std::string expected) {
@@ -213,8 +213,8 @@ class Assembler {
     return text;
   }
 
-  /// Returns the equivalent of another language's word, or the nearest instruction by spelling, if one is
-  /// near.
+  /// Returns the equivalent of a word from another language, or the instruction with the nearest spelling, if
+  /// there is one.
   static std::string expected_instruction(std::string_view word) {
     struct ForeignWord {
       std::string_view word;
@@ -299,7 +299,7 @@ class Assembler {
     check_that_flags_lead_to_labels();
   }
 
-  /// The last of several lines with a flag counts, so a label on another line would be misleading.
+  /// If several lines have a flag, only the last one counts, so a label on another line would be misleading.
   void check_that_flags_lead_to_labels() {
     std::array<std::size_t, 256> last{};
     for (std::size_t place = 0; place < lines_.size(); ++place) last[lines_[place].flag] = place;
@@ -357,7 +357,7 @@ class Assembler {
 
   Lines lines_{};
   std::array<Marks, kLineCount> marks_{};
-  std::array<int, kLineCount> text_line_{};  // where each line of the program comes from; 0: nowhere
+  std::array<int, kLineCount> text_line_{};  // the text line of each program line; 0: none
   int next_ = 0;
   Marks pending_;
   std::map<std::string, Label> labels_;  // by name in lower case

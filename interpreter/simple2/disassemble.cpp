@@ -13,7 +13,7 @@ namespace understudy::interpreter::simple2 {
 namespace {
 
 constexpr std::size_t kLabelWidth = 8;
-/// `.at` replaces at least this many lines of zeros.
+/// `.at` replaces gaps of at least this many lines of zeros.
 constexpr int kLongGap = 4;
 
 std::string padded(std::string text) {
@@ -53,7 +53,7 @@ std::string cells_text(const Line& line) {
   return text;
 }
 
-/// Labels the line that has the flag; other lines with the same flag only show their cell.
+/// Labels the line to which the flag leads. Other lines with the same flag only show their cell.
 std::string mark_text(const Program& program, int number) {
   const std::uint8_t flag = program.line(number).flag;
   if (flag == 0) return {};
@@ -66,7 +66,7 @@ std::string mark_text(const Program& program, int number) {
 std::string disassemble(const Lines& lines) {
   const Program program(lines);
   std::string text;
-  int next = 0;  // the line that the text would fill next
+  int next = 0;  // the next line that the text would fill
   for (int number = 0; number < kLineCount; ++number) {
     const Line& line = program.line(number);
     if (line == Line{}) continue;

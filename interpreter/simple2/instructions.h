@@ -16,7 +16,7 @@ enum class Operand : std::uint8_t {
   input,        // DIN 0 to 10
   output,       // DOUT 0 to 6
   output_bits,  // bit n: DOUT n
-  output_mask,  // bit n: whether DOUT n changes
+  output_mask,  // bit n: DOUT n may change
   logic,        // 1 on, 0 off
   amount_low,   // low 8 bits of a 16-bit amount
   amount_high,
@@ -32,10 +32,10 @@ struct Instruction {
   std::string_view mnemonic;
   Operand data1;
   Operand data2;
-  std::string_view meaning;  // description in the documentation
+  std::string_view meaning;  // for the documentation
 };
 
-/// The instructions in the order of opcodes. An opcode that is not in the table is not an instruction.
+/// The instructions in the order of their opcodes. An opcode that is not in the table is not an instruction.
 inline constexpr std::array<Instruction, 115> kInstructions{{
     {0x00, "NOP", Operand::none, Operand::none, "Does nothing"},
     {0x01, "Wait_IO", Operand::input, Operand::logic, "Waits here until the input is ON, or OFF"},
@@ -233,7 +233,7 @@ inline constexpr std::array<Instruction, 115> kInstructions{{
     {0xFF, "END", Operand::none, Operand::none, "Ends the program"},
 }};
 
-/// Returns null if the manual lists no such instruction.
+/// Returns null if the manual does not define the opcode.
 constexpr const Instruction* find_instruction(std::uint8_t opcode) {
   for (const Instruction& instruction : kInstructions) {
     if (instruction.opcode == opcode) return &instruction;
@@ -241,7 +241,7 @@ constexpr const Instruction* find_instruction(std::uint8_t opcode) {
   return nullptr;
 }
 
-/// Finds an opcode by its mnemonic in the manual's spelling; an unknown mnemonic is a compile error.
+/// Returns the opcode of a mnemonic, spelled as in the manual. An unknown mnemonic is a compile error.
 consteval std::uint8_t opcode_of(std::string_view mnemonic) {
   for (const Instruction& instruction : kInstructions) {
     if (instruction.mnemonic == mnemonic) return instruction.opcode;
@@ -253,7 +253,8 @@ inline constexpr int kInputCount = 11;
 inline constexpr int kOutputCount = 7;
 inline constexpr int kStatusBitCount = 16;
 
-/// Returns true if this input, output, STATUS bit, counter or timer exists. Other operands can be anything.
+/// Returns true if this input, output, STATUS bit, counter or timer exists. For other operands, all values
+/// are valid.
 constexpr bool is_defined(Operand operand, std::uint8_t value) {
   switch (operand) {
     case Operand::input: return value < kInputCount;
@@ -276,7 +277,7 @@ constexpr bool is_defined(Operand operand, std::uint8_t value) {
   return true;
 }
 
-/// The operand that names a parameter which the instruction writes, if any.
+/// Which operand, if any, is the number of a parameter that the instruction writes.
 enum class Written : std::uint8_t { nothing, data1, data2 };
 constexpr Written written_by(std::uint8_t opcode) {
   switch (opcode) {
@@ -293,7 +294,7 @@ constexpr Written written_by(std::uint8_t opcode) {
   }
 }
 
-/// Describes an operand: "DIN number (0-10)".
+/// Returns a description of an operand: "DIN number (0-10)".
 std::string_view describe(Operand operand);
 
 }  // namespace understudy::interpreter::simple2

@@ -16,12 +16,12 @@
 namespace understudy::interpreter::simple2 {
 namespace {
 
-/// Operands that are numbers in a range.
+/// Operands that are numbers within a range.
 struct NumberKind {
   Operand kind;
   int min;
   int max;
-  std::string_view prefix = {};  // written before the number, may be left out
+  std::string_view prefix = {};  // precedes the number; optional
   bool is_binary = false;
 };
 

@@ -1,5 +1,5 @@
-// The names of parameters, by which a program reaches registers: MEM0 to MEM31, VAR32 to VAR63, DAT64 to
-// DAT143, and for 144 to 182 the names of their registers.
+// The names of the parameters through which a program accesses registers: MEM0 to MEM31, VAR32 to VAR63,
+// DAT64 to DAT143, and for 144 to 182 the names of their registers.
 #pragma once
 
 #include <cstdint>
@@ -9,14 +9,14 @@
 
 namespace understudy::interpreter::simple2 {
 
-/// A parameter that is a register of its own.
+/// A parameter that has its own register.
 struct RegisterName {
   std::uint8_t number;
   std::string_view name;
-  std::string_view other_spelling = {};  // in another table of the manual, or where it misprints the axis
+  std::string_view other_spelling = {};  // in another table of the manual, or for a misprinted axis
 };
 
-/// The names as in the register table. The device makes its parameter table from these.
+/// The names as in the register table. The device creates its parameter table from these.
 inline constexpr RegisterName kRegisterNames[] = {
     {144, "Aaxis_Home_Speed", "Axis_Home_Speed"},
     {145, "Baxis_Home_Speed"},
@@ -48,20 +48,20 @@ inline constexpr RegisterName kRegisterNames[] = {
     {179, "Axis_SyncSlope", "Aaxis_SyncSlope"},
     {180, "Baxis_SyncSlope"},
     {181, "Axis_SyncRPM", "Aaxis_SyncRPM"},
-    {182, "Baxis_SyncRPM"},  // printed as Axis_SyncRPM a second time
+    {182, "Baxis_SyncRPM"},  // the manual prints Axis_SyncRPM a second time
 };
 
-/// Returns true for parameters that show a measured value; they cannot be written.
+/// Returns true for parameters that show a measured value and cannot be written.
 constexpr bool is_read_only(std::uint8_t number) {
   return number == 156 || number == 157 || number == 169 ||
          number == 170;  // Analog_A, _B, ENCA_RPM, ENCB_RPM
 }
 
-/// Returns the name in a listing, or nothing for a number that the manual does not define.
+/// Returns the name for a listing, or nothing for a number that the manual does not define.
 std::optional<std::string> parameter_name(std::uint8_t number);
 
-/// Finds a parameter by any of its names, in upper or lower case: as above, DAT144 to DAT182, or the other
-/// spelling of its register.
+/// Finds a parameter by any of its names, in upper or lower case: the names above, DAT144 to DAT182, or the
+/// other spelling of its register.
 std::optional<std::uint8_t> parameter_number(std::string_view name);
 
 }  // namespace understudy::interpreter::simple2

@@ -11,7 +11,7 @@
 namespace understudy::interpreter::simple2 {
 namespace {
 
-// CMD, DATA1, DATA2, JMP, as they follow each other in the registers.
+// CMD, DATA1, DATA2, JMP: the order in the registers.
 constexpr std::array<std::uint8_t Line::*, kCellsPerLine> kCells{&Line::command, &Line::data1, &Line::data2,
                                                                  &Line::flag};
 
@@ -56,7 +56,7 @@ void Program::flag_written(int number, std::uint8_t flag_before) {
   if (is_flag(flag_before) && line_of_flag_[flag_before] == number) find_flag(flag_before);
   const std::uint8_t flag = line(number).flag;
   if (!is_flag(flag) || is_behind_end(number)) return;
-  // The order of writes is known only for this line. Among the others, the last line counts in any case.
+  // The order of writes is known only for this line. Among the other lines, the last one always counts.
   std::int16_t& counts = line_of_flag_[flag];
   const bool is_last_written = rules_.several == FlagRules::Several::last_written;
   if (is_last_written || number > counts) counts = static_cast<std::int16_t>(number);

@@ -1,4 +1,4 @@
-// A Simple2-R3 program: 256 lines of four cells, and the line of each flag.
+// A Simple2-R3 program: 256 lines of four cells, and the line to which each flag leads.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@ struct Line {
   std::uint8_t command = 0;
   std::uint8_t data1 = 0;
   std::uint8_t data2 = 0;
-  // the manual's JMP: the flag that marks this line, 1 to 64; other values are not flags
+  // JMP in the manual: the flag that marks this line, 1 to 64. Other values are not flags.
   std::uint8_t flag = 0;
 
   bool operator==(const Line&) const = default;
@@ -23,19 +23,19 @@ struct Line {
 
 using Lines = std::array<Line, kLineCount>;
 
-/// Options about the line of a flag that the manual leaves open; our option is first.
+/// How to find the line of a flag, where the manual leaves this open. Our option is first.
 struct FlagRules {
-  /// Of several lines with the same flag, the last of them counts, or the one written last.
+  /// If several lines have the same flag, either the last line counts, or the line that was written last.
   enum class Several : std::uint8_t { last_line, last_written } several = Several::last_line;
-  /// Flags after the first END count, or do not.
+  /// Flags after the first END either count or do not.
   enum class AfterEnd : std::uint8_t { count, do_not_count } after_end = AfterEnd::count;
-  /// The lines are searched for flags at every write, or only in find_flags().
+  /// The lines are searched for flags either at every write or only in find_flags().
   enum class Found : std::uint8_t { at_every_write, on_request } found = Found::at_every_write;
 
   bool operator==(const FlagRules&) const = default;
 };
 
-/// The line of each flag, -1 for none.
+/// The line of each flag; -1: none.
 using FlagLines = std::array<std::int16_t, kFlagCount + 1>;
 
 class Program {
@@ -44,7 +44,7 @@ class Program {
   explicit Program(const Lines& lines, const FlagRules& rules = {}) : lines_(lines), rules_(rules) {
     find_flags();
   }
-  /// Restores a program: under some rules, the lines alone do not determine the line of a flag.
+  /// Restores a program. With some rules, the lines alone do not determine the line of a flag.
   Program(const Lines& lines, const FlagRules& rules, const FlagLines& flag_lines)
       : lines_(lines), rules_(rules), line_of_flag_(flag_lines) {}
 
@@ -55,7 +55,7 @@ class Program {
   std::uint8_t cell(int number) const;
   void set_cell(int number, std::uint8_t value);
 
-  /// Returns nothing for a flag that no line has, or for a value that is not a flag.
+  /// Returns nothing if no line has the flag, or if the value is not a flag.
   std::optional<std::uint8_t> line_with_flag(std::uint8_t flag) const;
   /// Searches the lines now, regardless of the rules.
   void find_flags();

@@ -16,7 +16,8 @@ constexpr bool same_name(std::string_view a, std::string_view b) {
                     [](char x, char y) { return lower(x) == lower(y); });
 }
 
-/// Returns the rest of `text` after `prefix`, in upper or lower case; empty if `text` does not begin with it.
+/// Returns the rest of `text` after `prefix`, which may be in upper or lower case, or an empty text if `text`
+/// does not begin with it.
 constexpr std::string_view after_prefix(std::string_view text, std::string_view prefix) {
   if (!same_name(text.substr(0, prefix.size()), prefix)) return {};
   return text.substr(prefix.size());

@@ -11,8 +11,8 @@
 namespace understudy::interpreter::slim {
 namespace {
 
-// For rows without columns: commands that make sense only in a program, and commands that make sense only if
-// typed.
+// For rows that have no columns: commands that make sense only in a program, and commands that make sense
+// only if typed.
 constexpr Verb kForPrograms[] = {
     Verb::jump,    Verb::jump_if,    Verb::jump_if_within, Verb::call,
     Verb::return_, Verb::wait_input, Verb::wait_time,      Verb::wait_done,
@@ -23,11 +23,11 @@ constexpr Verb kForHosts[] = {
     Verb::download,     Verb::exit,           Verb::list_parameters, Verb::reboot,
 };
 
-/// Commands with which a host changes the memory; in some machines, programs use them too.
+/// Commands with which a host changes the memory. On some machines, programs can use them, too.
 constexpr Verb kSaves[] = {Verb::save_data, Verb::save_parameters, Verb::save_program,
                            Verb::default_parameters};
 
-/// Commands that a host needs although the column 外部 does not print them, such as those that end a pause.
+/// Commands that a host needs although they are not in the column 外部, such as those that end a pause.
 constexpr Verb kLetThrough[] = {
     Verb::resume_all,   Verb::abandon_all,    Verb::pause,        Verb::redo,          Verb::clear_buffer,
     Verb::set_port_now, Verb::clear_port_now, Verb::servo_on_now, Verb::servo_off_now,
@@ -57,7 +57,7 @@ bool is_allowed(const Command& command, Place place, const Options& options) {
       if (row.immediate == Printed::yes) return true;
       return takes_real_variable(row) && options.chose(option("immediate_column", "taken"));
     case Place::external:
-      // EXIT leaves a running program; it has no meaning elsewhere.
+      // EXIT leaves a running program. Elsewhere, it has no meaning.
       if (row.external == Printed::yes || row.verb == Verb::exit) return true;
       if (row.verb == Verb::reset) return options.chose(option("while_program_runs", "reset_too"));
       return is_let_through(row) && !options.chose(option("while_program_runs", "external_column_only"));

@@ -1,5 +1,5 @@
-// Decides which commands are allowed where: stored in a program, typed while no program runs, or from outside
-// while one runs. The manual prints three columns without an explanation, and only for its second list.
+// Decides where a command is allowed: stored in a program, typed while no program runs, or from outside while
+// a program runs. The manual has three columns for this, without an explanation and only in its second list.
 #pragma once
 
 #include <cstdint>

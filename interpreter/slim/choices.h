@@ -1,5 +1,5 @@
-// What SLIM's command list leaves open about lines and programs, and what we chose. The model's table has
-// these rows, so a bench can override them and docs/fidelity/slim.md lists them.
+// What SLIM's command list leaves open about lines and programs, and what we chose. These rows are part of
+// the model's table, so a bench can override them and docs/fidelity/slim.md lists them.
 #pragma once
 
 #include <array>

@@ -15,9 +15,9 @@ struct Operand {
   enum class Kind : std::uint8_t {
     integer,           // number; also inputs, lines, milliseconds
     real,              // number
-    integer_variable,  // N#: index
-    real_variable,     // R#: index
-    integer_array,     // NS(i): index, or the index of the N variable that holds it
+    integer_variable,  // N#: the index
+    real_variable,     // R#: the index
+    integer_array,     // NS(i): the index, or the index of the N variable that contains it
     real_array,        // RS(i): like integer_array
     port,              // index 1 to 4
     label,             // text, in capitals, without the $
@@ -42,14 +42,14 @@ struct Operand {
 struct Command {
   Verb verb = Verb::home;
   int row = 0;      // index in kCommands; a query with a module has the row of `?Tp`
-  int module = -1;  // module of the prefix; -1: no prefix, which means T0
+  int module = -1;  // module of the prefix; -1: no prefix, so T0
   std::vector<Operand> operands = {};
-  std::string name = {};  // of a parameter, or of a queried item, in capitals
+  std::string name = {};  // of a parameter or a queried item, in capitals
 
   bool operator==(const Command&) const = default;
 };
 
-/// A parsed line. A line may be empty, and a label may be alone on it.
+/// A parsed line, which may be empty or contain only a label.
 struct ParsedLine {
   std::string label = {};  // in capitals, without the $
   std::optional<Command> command = {};

@@ -7,7 +7,8 @@
 
 namespace understudy::interpreter::slim {
 
-/// The functions of commands. A row's `variant` distinguishes related commands, as the comments explain.
+/// The functions of commands. A row's `variant` distinguishes related commands; the comments explain its
+/// values.
 enum class Verb : std::uint8_t {
   // one motor
   move_absolute,
@@ -64,7 +65,7 @@ enum class Verb : std::uint8_t {
   get_integer,
   get_real,
   print,
-  set_variable,   // operands: the variable and its new value; also AIN=N0 and DATA
+  set_variable,   // operands: the variable and its new value; also for AIN=N0 and DATA
   set_parameter,  // name; operand: the new value
   list_parameters,
   default_parameters,
@@ -111,7 +112,7 @@ enum class Verb : std::uint8_t {
   continuous_path,  // variant: mode 0 to 2
 };
 
-/// The operands that a place after a command's name can accept.
+/// What a place after a command's name accepts as an operand.
 enum class Slot : std::uint8_t {
   none,
   real,           // a constant
@@ -129,22 +130,22 @@ enum class Slot : std::uint8_t {
   comparand,         // a constant, variable or function of the type of the next variable
   data,              // a constant, variable or function that fits the previous variable
   milliseconds,
-  pulse_width,  // in 4 ms
+  pulse_width,  // in units of 4 ms
   frequency,    // in Hz
   percent,
   thrust_level,  // 1 to 20000
   levels,        // 0 to 15: bit 0 is port 1
   axis_module,   // 0 to 5, or 8 for none
   flag,          // 0 or 1
-  whole,         // a whole number
-  variant,       // exactly the number in the row's `variant`
+  whole,         // an integer
+  variant,       // exactly the row's `variant`
   event,         // EV1 to EV8
-  condition,     // of an event, including everything that follows
+  condition,     // of an event, including all that follows
   word,          // the second word of the command's name
   text,          // in quotes
 };
 
-/// The condition of a jump or an event. The operands are: an input; a variable; or a comparand and a
+/// The condition of a jump or an event. Its operands are either an input, or a variable, or a comparand and a
 /// variable.
 enum class Condition : std::uint8_t {
   input_on,
@@ -157,11 +158,11 @@ enum class Condition : std::uint8_t {
   not_greater,
 };
 
-/// The contents of the manual's columns; the first list has none.
+/// The contents of the manual's columns. The first list has no columns.
 enum class Printed : std::uint8_t { no, yes, nothing };
 
 struct CommandRow {
-  std::string_view command;  // "Tp" in front: can have a module; "?": a query
+  std::string_view command;  // "Tp" in front: may have a module; "?": a query
   std::string_view syntax;   // as the manual writes it; with "=": an assignment
   std::string_view meaning;
   std::string_view group;
@@ -169,7 +170,7 @@ struct CommandRow {
   Printed immediate;  // 立即
   Printed external;   // 外部
   Verb verb;
-  std::array<Slot, 4> slots = {};  // of an assignment: the slots after the "="
+  std::array<Slot, 4> slots = {};  // for an assignment, the slots after the "="
   int variant = -1;
 
   constexpr bool takes_module() const { return command.starts_with("Tp") || command.starts_with("?Tp"); }
@@ -184,7 +185,7 @@ inline constexpr int kSwitchCount = 6;
 inline constexpr int kEventCount = 8;
 inline constexpr int kVariableCount = 65;  // N0 to N64, R0 to R64
 inline constexpr int kArrayCount = 2001;   // NS(0) to NS(2000), RS(0) to RS(2000)
-/// The limits of integers: "MAX N0=32766".
+/// The range of integers: "MAX N0=32766".
 inline constexpr int kIntegerMin = -32768;
 inline constexpr int kIntegerMax = 32766;
 

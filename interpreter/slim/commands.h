@@ -1,4 +1,4 @@
-// SLIM's commands as data: every syntax form that the manual prints, in its order. Parsing, help and
+// SLIM's commands as data: every syntax form in the manual, in its order. The parser, the help texts and
 // `describe` read these rows. To add a command, add a row.
 #pragma once
 
@@ -19,7 +19,7 @@ inline constexpr std::array<CommandRow, rows::kOneMotor.size() + rows::kSeveralM
   return all;
 }();
 
-/// Returns the index of a row; a form that the manual does not have is a compile error.
+/// Returns the index of a row. A form that is not in the manual is a compile error.
 consteval int row_of(std::string_view syntax) {
   for (std::size_t i = 0; i < kCommands.size(); ++i) {
     if (kCommands[i].syntax == syntax) return static_cast<int>(i);

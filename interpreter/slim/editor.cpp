@@ -18,7 +18,7 @@ namespace {
 
 constexpr char kEscape = '\x1B';
 
-/// Returns the line number from 0; -1 for line 0 if lines are numbered from 1.
+/// Returns the line number, counted from 0; -1 for line 0 if lines are numbered from 1.
 int line_named_by(const Command& command, const Options& options) {
   return static_cast<int>(command.operands.at(0).number) - first_number(options);
 }
@@ -36,7 +36,7 @@ struct EditArguments {
   Editor& editor;
   Program& program;
   const Options& options;
-  int line;  // the line that the command names
+  int line;  // the line in the command
 };
 using Beginning = Error (*)(const EditArguments&);
 
@@ -83,7 +83,7 @@ constexpr CompleteTable<Verb, Beginning> kBeginnings(kEditingVerbs, kBeginningRo
 
 Error begin_edit(Editor& editor, Program& program, const Command& command, const Options& options) {
   if (!kBeginnings.has(command.verb)) return Error::syntax;
-  // The command names no line if no number follows it.
+  // If no number follows, the command does not refer to a line.
   const int line = command.operands.empty() ? 0 : line_named_by(command, options);
   return kBeginnings[command.verb]({editor, program, options, line});
 }
@@ -94,7 +94,7 @@ Error enter_line(Editor& editor, Program& program, std::string_view text, const 
     editor = {};
     return Error::none;
   }
-  // Ignored if empty lines do not end the editing; a file sent by a terminal may contain them.
+  // Ignored if empty lines do not end editing, because a file sent by a terminal may contain empty lines.
   if (without_blanks(text).empty()) return Error::none;
   const auto one_line = [&](Error error) {
     const bool is_over = error == Error::none || options.chose(option("refused_line", "ends_editing"));

@@ -1,4 +1,4 @@
-// Enters a program line by line: PG, PA, PE, PI, PD and DLP.
+// Enters a program line by line (PG, PA, PE, PI, PD and DLP).
 #pragma once
 
 #include <cstdint>
@@ -12,13 +12,13 @@
 
 namespace understudy::interpreter::slim {
 
-/// How lines from the host become program lines.
+/// How lines from the host become lines of the program.
 struct Editor {
   enum class Mode : std::uint8_t {
     none,
-    lines,     // PG, PA: all lines, until EXIT, ESC, or an empty line (unless those are ignored)
-    replace,   // PE: the next good line replaces `line`
-    insert,    // PI: the next good line is inserted before `line`
+    lines,     // PG, PA: all lines, until EXIT, ESC, or an empty line (unless empty lines are ignored)
+    replace,   // PE: the next valid line replaces `line`
+    insert,    // PI: the next valid line is inserted before `line`
     download,  // DLP: all lines, until END, EXIT or ESC
   } mode = Mode::none;
   int line = 0;  // from 0
@@ -28,12 +28,12 @@ struct Editor {
 
 constexpr bool is_editing(const Editor& editor) { return editor.mode != Editor::Mode::none; }
 
-/// Executes one of the six commands. If it returns an error, nothing has changed.
+/// Executes one of the six commands. If it returns an error, it has changed nothing.
 Error begin_edit(Editor& editor, Program& program, const Command& command, const Options& options = {});
 
 /// Handles a line that arrives during editing. A line with an error is not stored, and editing continues,
-/// because the next line is meant for the program too. A line that contains ESC (0x1B) ends the editing and
-/// is not stored.
+/// because the next line is meant for the program, too. A line that contains ESC (0x1B) ends editing and is
+/// not stored.
 Error enter_line(Editor& editor, Program& program, std::string_view text, const Options& options = {});
 
 /// Returns the number of the next line, for a prompt.

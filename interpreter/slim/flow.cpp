@@ -43,12 +43,12 @@ std::optional<Kind> asked_of_host(const Command& command) {
   return asking->kind;
 }
 
-/// Returns how many lines run in a tick. A line that waits or fails is the last one in its tick.
+/// Returns how many lines run in a tick. A line that waits or fails ends the tick.
 int lines_a_tick(const Options& options) {
   return options.chose(option("lines_a_tick", "four_a_millisecond")) ? 4 : 1;
 }
 
-/// Returns the unit of tm in JTI and JNTI.
+/// Returns the unit of tm in JTI and JNTI, in milliseconds.
 int window_unit_ms(const Options& options) {
   return options.chose(option("time_unit", "4_milliseconds")) ? 4 : 1;
 }
@@ -59,7 +59,7 @@ std::int64_t moment_from(std::int64_t ms, int every_ms) {
   return past_ms == 0 ? ms : ms + (every_ms - past_ms);
 }
 
-/// Runs one line in a tick.
+/// Executes one line in a tick.
 class LineRun {
  public:
   LineRun(Execution& execution, std::int64_t now_ms, const Program& program, const Options& options,
@@ -91,7 +91,7 @@ class LineRun {
   Error next_line() { return go_to(execution_.line + 1); }
 
  private:
-  /// Tells an observer that the line begins. A line that waits has begun already.
+  /// Notifies the observer that the line begins, unless the line was already waiting.
   void begin() {
     begins_ = execution_.hold == Hold::nothing;
     if (begins_) machine_.watch()->runs(0, execution_.line, 1);
@@ -107,7 +107,8 @@ class LineRun {
     return std::ranges::any_of(command.operands, &Operand::index_is_variable);
   }
 
-  /// Runs the command with the host's number and with indices in place of the operands that need them.
+  /// Executes the command after replacing GETI and GETR with the host's number, and variable indices with
+  /// their values.
   Error run_changed(const Command& asking) {
     const std::optional<Kind> asked = asked_of_host(asking);
     if (asked && !execution_.has_number) return hold(Hold::number);
@@ -133,7 +134,7 @@ class LineRun {
     return outcome.waits ? hold(Hold::machine) : next_line();
   }
 
-  /// Lets the routine of an event continue to its RET, where the program then ends.
+  /// The routine of an event continues to its RET, where the program ends.
   void forget_what_was_interrupted() {
     for (Frame& frame : execution_.stack) {
       if (frame.of_event) frame = {.line = program_.size(), .of_event = true};
@@ -150,7 +151,7 @@ class LineRun {
     return run_command(command);
   }
 
-  /// Returns the line as written: an event keeps its variable index, which is read again at every check.
+  /// Returns the line as written. An event keeps a variable index, which is read again at every check.
   const Command& original() const { return *program_.line(execution_.line).parsed.command; }
 
   Condition condition_of(const Command& command) const {
@@ -227,7 +228,7 @@ class LineRun {
     return Error::none;
   }
 
-  /// Continues at a line. A program ends at once after its last line.
+  /// Continues at a line. After the last line, the program ends at once.
   Error go_to(int line) {
     hold(Hold::nothing);
     if (line >= program_.size()) return end(Ending::past_last_line);
@@ -267,9 +268,9 @@ constexpr CompleteTable<Verb, LineRun::Action> LineRun::kActions(
                     {Verb::get_real, &LineRun::take_bare_number},
                 }));
 
-/// Enters the routine of the event whose turn it is, if there is one.
+/// Enters the routine of the next pending event, if there is one.
 Error serve_events(Execution& execution, const Program& program, const Options& options) {
-  // A line that has received its number from the host runs first; otherwise the routine would take the
+  // A line that has received its number from the host runs first. Otherwise, the routine would consume the
   // number.
   if (in_event_routine(execution) || execution.has_number) return Error::none;
   const std::optional<Operand> address = take_event(execution.events);
@@ -284,7 +285,7 @@ Error serve_events(Execution& execution, const Program& program, const Options& 
   return Error::none;
 }
 
-/// Reads a number in a form and range that GETI or GETR accepts.
+/// Reads a number that has the form and range for GETI or GETR.
 Error read_number(std::string_view text, Kind asked, const Options& options, double& number) {
   const std::optional<Operand> read = parse_number(text);
   if (!read) return Error::syntax;
@@ -298,8 +299,7 @@ Error read_number(std::string_view text, Kind asked, const Options& options, dou
   return number >= -kMax && number <= kMax ? Error::none : Error::range;
 }
 
-/// Returns the first tick after `done_ms` in which a line may do anything, or in which the next event has its
-/// turn.
+/// Returns the first tick after `done_ms` in which a line may do anything or the next event is due.
 std::int64_t next_line_ms(const Execution& execution, std::int64_t done_ms, const Program& program,
                           const Options& options, const Machine& machine) {
   const std::int64_t next_ms = moment_from(done_ms + 1, line_interval_ms(options));
@@ -328,7 +328,8 @@ std::int64_t next_line_ms(const Execution& execution, std::int64_t done_ms, cons
   return next_ms;
 }
 
-/// Starts the routine of an event while no program runs: from the next tick on, the routine is a program.
+/// Starts the routine of an event while no program is running. From the next tick on, the routine is the
+/// program.
 Error run_lonely_event(Execution& execution, std::int64_t now_ms, const Program& program,
                        const Options& options, const Machine& machine) {
   if (events_need_program(options)) return Error::none;
@@ -383,7 +384,7 @@ Error step(Execution& execution, std::int64_t now_ms, const Program& program, co
   if (!execution.running) return run_lonely_event(execution, now_ms, program, options, machine);
   LineRun line(execution, now_ms, program, options, machine);
   const bool is_lines_turn = now_ms % line_interval_ms(options) == 0;
-  // A wait that is over ends before an event can restart it.
+  // A wait whose time is over ends before an event can restart it.
   if (is_lines_turn && execution.hold == Hold::timer && now_ms >= execution.until_ms) line.next_line();
   if (!execution.running) return Error::none;
   Error event_error = Error::none;

@@ -1,4 +1,4 @@
-// The chain of motors on which a running SLIM program acts, as an abstract machine.
+// The chain of motors on which a running SLIM program acts, as an abstract interface.
 #pragma once
 
 #include <cstdint>
@@ -11,12 +11,12 @@ namespace understudy::interpreter::slim {
 
 /// The result of a command.
 struct Outcome {
-  bool waits = false;  // not executed yet; the program gives the command again at the next tick
+  bool waits = false;  // not executed yet; the program repeats the command in the next tick
   Error error = Error::none;
-  /// The effect on the program that gave the command.
+  /// The effect on the program that sent the command.
   enum class Program : std::uint8_t {
     continues,
-    forgets_what_it_interrupted,  // the program ends at the RET of the event's routine
+    forgets_what_it_interrupted,  // the program ends at the RET of the event routine
     ends,
   } program = Program::continues;
 
@@ -32,12 +32,12 @@ class Machine : public Watched {
 
   /// Returns input 1 to 8.
   virtual bool input(int number) const = 0;
-  /// Returns the value of a variable, an array element (its index is a constant, within its range), AIN, TM
-  /// or a quantity.
+  /// Returns the value of a variable, an array element (with a constant index that is in range), AIN, TM or a
+  /// quantity.
   virtual double value(const Operand& operand) const = 0;
-  /// Executes all commands except program flow, program editing, and GETI and GETR alone. These include DN,
-  /// TpDN and XDN, which wait. Indices are constants, and GETI and GETR are replaced by the numbers that the
-  /// host has sent.
+  /// Executes all commands except program flow, program editing, and GETI and GETR alone. This includes DN,
+  /// TpDN and XDN, which wait. Indices are constants, and GETI and GETR are already replaced by the numbers
+  /// from the host.
   virtual Outcome carry_out(const Command& command) = 0;
 };
 

@@ -26,19 +26,19 @@ using Kind = Operand::Kind;
 ParseResult refused(Error error) { return {.error = error}; }
 ParseResult understood(Command command) { return {.line = {.command = std::move(command)}}; }
 
-/// Returns the first word of a row's name (the word that follows a prefix).
+/// Returns the first word of a row's name, without a prefix.
 constexpr std::string_view head_of(const CommandRow& row) {
   std::string_view head = row.command;
   if (head.starts_with("Tp")) head.remove_prefix(2);
   return head.substr(0, head.find(' '));
 }
 
-/// The part of a row that a word of a line is compared with.
+/// The part of a row that is compared with a word of a line.
 struct RowKey {
   enum class Syntax : std::uint8_t { plain, assignment, query };
   Syntax syntax = Syntax::plain;
   bool takes_module = false;
-  std::string_view head;  // for a query everything after the "?"
+  std::string_view head;  // for a query, everything after the "?"
 
   constexpr explicit RowKey(const CommandRow& row)
       : syntax(row.is_query()        ? Syntax::query
@@ -47,7 +47,7 @@ struct RowKey {
         takes_module(row.takes_module()),
         head(row.is_query() ? row.command.substr(1) : head_of(row)) {}
 
-  /// Compares with a word in upper case.
+  /// Compares with a word, which must be in upper case.
   constexpr bool is_called(std::string_view word) const {
     return std::equal(head.begin(), head.end(), word.begin(), word.end(),
                       [](char a, char b) { return capital(a) == b; });
@@ -60,7 +60,7 @@ constexpr auto keys_of(std::index_sequence<i...>) {
 }
 constexpr auto kRowKeys = keys_of(std::make_index_sequence<kCommands.size()>());
 
-/// A word without its prefix `Tn`.
+/// A word after its prefix `Tn` was removed.
 struct Prefixed {
   bool has_prefix = false;
   int module = -1;
@@ -68,7 +68,7 @@ struct Prefixed {
 };
 
 /// Splits off a prefix: one digit directly after the T, or two (T15, for sixteen modules). TX, TM and TAPZ
-/// have none.
+/// have no prefix.
 Prefixed split_prefix(std::string word) {
   const bool has_prefix = word.size() >= 2 && word[0] == 'T' && is_digit(word[1]);
   if (!has_prefix) return {.word = std::move(word)};
@@ -80,7 +80,7 @@ bool is_no_module(const Prefixed& name) { return name.has_prefix && name.module 
 
 bool is_variable_word(std::string_view word) { return is_numbered(word, "N") || is_numbered(word, "R"); }
 
-/// Returns true for letters followed by letters and digits, except names of variables and axis maps.
+/// Returns true for letters that are followed by letters and digits, except names of variables and axis maps.
 bool is_parameter_name(std::string_view word) {
   static constexpr std::array<std::string_view, 9> kOthers{"TX", "TY", "TZ", "TW", "AIN",
                                                            "N",  "R",  "NS", "RS"};
@@ -91,7 +91,7 @@ bool is_parameter_name(std::string_view word) {
   return true;
 }
 
-/// Keeps the better result of several rows for the same operands.
+/// Keeps the better of the results that several rows produce for the same operands.
 void keep_better(ParseResult& best, bool is_first, Error error) {
   if (is_first || error == Error::range) best.error = error;
 }
@@ -124,7 +124,7 @@ ParseResult parse_plain(const Prefixed& name, std::string_view rest, const Optio
   return best;
 }
 
-/// Parses the part after "=", for a row with its own name or for any parameter.
+/// Parses the part after "=", for a row with its own name or for a parameter.
 ParseResult assign(const Prefixed& name, int row_number, std::string_view data, const Options& options) {
   const CommandRow& row = kCommands[static_cast<std::size_t>(row_number)];
   const std::array<std::string_view, 1> items{without_blanks(data)};
@@ -138,7 +138,7 @@ ParseResult assign(const Prefixed& name, int row_number, std::string_view data, 
   return understood(std::move(command));
 }
 
-/// Returns the row of a variable. Anything else is treated as R#, because its error is found elsewhere.
+/// Returns the row of a variable. Everything else is treated as R#, because its error is detected elsewhere.
 int row_of_variable(Kind kind, bool is_query) {
   if (is_query) return holds_integer(kind) ? row_of("?N#") : row_of("?R#");
   if (is_array(kind)) return holds_integer(kind) ? row_of("NS(i)=data") : row_of("RS(i)=data");

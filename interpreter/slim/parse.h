@@ -1,4 +1,4 @@
-// Parses one line of text into a command. availability.h decides whether the command is allowed.
+// Parses a line of text into a command. availability.h decides whether the command is allowed.
 #pragma once
 
 #include <optional>
@@ -17,11 +17,11 @@ struct ParseResult {
   bool operator==(const ParseResult&) const = default;
 };
 
-/// Parses a line and checks everything that needs no state. An empty line is not an error.
+/// Parses a line and checks everything that does not depend on state. An empty line is not an error.
 ParseResult parse_line(std::string_view text, const Options& options = {});
 
-/// Parses a decimal number as a host writes it: sign, digits, point, exponent. Returns nothing for anything
-/// else.
+/// Parses a decimal number in the form that hosts send: sign, digits, point, exponent. Returns nothing for
+/// any other text.
 std::optional<Operand> parse_number(std::string_view text);
 
 }  // namespace understudy::interpreter::slim

@@ -17,13 +17,13 @@
 namespace understudy::interpreter::slim {
 namespace {
 
-/// Returns true if the line would end the transfer of its program with DLP.
+/// Returns true if the line would end the transfer of the program with DLP.
 bool ends_transfer(std::string_view text) {
   const std::string word = in_capitals(text);
   return word == "END" || word == "EXIT" || text.find('\x1B') != std::string_view::npos;
 }
 
-/// Returns the label of a line. `$A NONSENSE` is still a valid target of jumps.
+/// Returns the label of a line. `$A NONSENSE` is still a valid jump target.
 std::string label_of(std::string_view text) {
   if (!text.starts_with('$')) return {};
   return parse_line(text.substr(0, text.find_first_of(" \t"))).line.label;
@@ -31,13 +31,13 @@ std::string label_of(std::string_view text) {
 
 }  // namespace
 
-/// Stores a line that fails when it runs, with its error; its label is still a valid target of jumps.
+/// Stores a line that will fail when it runs, with its error. Its label is still a valid jump target.
 Program::Checked Program::failing(Checked checked, std::string_view text) {
   if (checked.error == Error::none) return checked;
   return {.line = {.text = std::string(text), .parsed = {.label = label_of(text)}, .error = checked.error}};
 }
 
-/// Checks the line of `text` alone, without the other lines.
+/// Checks the line `text` independently of the other lines.
 Program::Checked Program::check_alone(std::string_view text, const Options& options) {
   ParseResult result = parse_line(text, options);
   if (result.error != Error::none) return {.error = result.error};
@@ -69,8 +69,8 @@ Program::Checked Program::check(std::string_view text, int replaced, const Optio
   return checked;
 }
 
-/// If checks_as_run(), the lines alone decide which of those with this label fail, not the order in which
-/// they were entered, so a program is the same after it is saved and loaded.
+/// If checks_as_run(), the lines themselves, and not the order in which they were entered, decide which lines
+/// with this label fail. Thus, a program is the same after it is saved and loaded.
 void Program::judge_label(const std::string& label, const Options& options) {
   if (label.empty() || !checks_as_run(options) || options.chose(option("same_label", "the_first_counts"))) {
     return;

@@ -1,5 +1,6 @@
-// The stored program: lines of text, each parsed when it is entered. Operands that name a line or a label are
-// looked up when the program runs. Lines are counted from 0 here, even if a host numbers them differently.
+// The stored program: lines of text, each of which is parsed when it is entered. Operands that refer to a
+// line or a label are looked up when the program runs. Lines are counted from 0 here, even if a host numbers
+// them differently.
 #pragma once
 
 #include <cstddef>
@@ -17,8 +18,8 @@ namespace understudy::interpreter::slim {
 struct StoredLine {
   std::string text;  // as entered, without surrounding blanks
   ParsedLine parsed;
-  // If lines are checked when they run, the error with which the line fails when it is reached. It may have a
-  // label.
+  // If lines are checked when they run, this is the error with which the line fails when it is reached. It
+  // may have a label.
   Error error = Error::none;
 
   bool operator==(const StoredLine&) const = default;
@@ -29,19 +30,19 @@ class Program {
   int size() const { return static_cast<int>(lines_.size()); }
   const StoredLine& line(int number) const { return lines_[static_cast<std::size_t>(number)]; }
 
-  /// `number` may be size(), to insert after the last line. insert() and replace() refuse the following, and
-  /// change nothing: a line that does not parse, or is empty; a command that is not allowed in a program
-  /// (not_allowed); a label of another line (address); a number that does not exist (range); more lines than
-  /// fit (buffer_full). If checks_as_run(), they refuse only empty lines, lines that are too long, and lines
-  /// that end a transfer; of several lines with the same label, the first one is valid and the others fail
-  /// with `address`, in whatever order they were entered.
+  /// `number` may be size(), to insert after the last line. insert() and replace() refuse the following and
+  /// change nothing: a line that does not parse or is empty; a command that is not allowed in a program
+  /// (not_allowed); a label that another line has (address); a number that does not exist (range); more lines
+  /// than fit (buffer_full). If checks_as_run(), they refuse only empty lines, lines that are too long, and
+  /// lines that end a transfer. If several lines then have the same label, the first one is valid and the
+  /// others fail with `address`, regardless of the order in which they were entered.
   Error insert(int number, std::string_view text, const Options& options = {});
   Error replace(int number, std::string_view text, const Options& options = {});
   Error remove(int number, const Options& options = {});
   void clear() { lines_.clear(); }
 
-  /// Returns the line to which an address (a label or a number) refers. Of two equal labels, the first one
-  /// counts.
+  /// Returns the line to which an address (a label or a number) refers. If two labels are equal, the first
+  /// one counts.
   std::optional<int> find(const Operand& address, const Options& options = {}) const;
 
   /// Returns the lines for `PL`.
@@ -49,15 +50,15 @@ class Program {
   /// Returns the lines for `ULP`: all lines, then END.
   std::vector<std::string> upload() const;
 
-  /// Save and restore the program. set_texts() returns false for texts that no program can hold, and leaves
-  /// the program unchanged.
+  /// Save and restore the program. set_texts() returns false for texts that no program can have, and does not
+  /// change the program in this case.
   std::vector<std::string> texts() const;
   bool set_texts(const std::vector<std::string>& texts, const Options& options = {});
 
   bool operator==(const Program&) const = default;
 
  private:
-  /// The line that `text` would become in place of line `replaced`, or -1 if it replaces none.
+  /// What `text` would become in place of line `replaced`, or as an additional line if `replaced` is -1.
   struct Checked {
     Error error = Error::none;
     StoredLine line = {};

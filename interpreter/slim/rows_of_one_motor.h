@@ -1,4 +1,4 @@
-// The manual's first list: commands of one motor, programs, variables, parameters, queries. It has no
+// The manual's first list: commands for one motor, programs, variables, parameters, queries. It has no
 // columns.
 #pragma once
 
@@ -12,7 +12,7 @@ namespace understudy::interpreter::slim::rows {
 using enum Slot;
 using enum Condition;
 
-/// Shorthand for rows: each constant is one combination of the manual's three columns.
+/// Abbreviations for the rows: each constant is one combination of the manual's three columns.
 struct PrintedColumns {
   Printed program, immediate, external;
 };

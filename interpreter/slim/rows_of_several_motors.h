@@ -1,4 +1,4 @@
-// The manual's second list: commands of several motors, with its columns.
+// The manual's second list: commands for several motors, with its columns.
 #pragma once
 
 #include <array>

@@ -36,7 +36,7 @@ constexpr Range integer_range(const Options& options) {
   return {static_cast<double>(integer_min(options)), kIntegerMax};
 }
 
-/// Returns true if the value of a query is also a function: N0=PE, JG VM,R0,$A.
+/// Returns true if the value of a query can also be used as a function: N0=PE, JG VM,R0,$A.
 constexpr bool takes_quantities(const Options& options) {
   return options.chose(option("functions", "what_queries_show_too"));
 }
@@ -51,7 +51,7 @@ Error in_range(double number, Range range) {
 
 Error check_whole(const Operand& operand, Range range) {
   if (operand.kind == Kind::integer) return in_range(operand.number, range);
-  // A whole number that is too large is a wrong value; a fraction is a different kind of operand.
+  // An integer that is too large is a wrong value, whereas a fraction is a different kind of operand.
   const bool is_huge = operand.kind == Kind::real && std::abs(operand.number) >= 0x1p53;
   return is_huge ? Error::range : Error::syntax;
 }
@@ -63,7 +63,7 @@ Error check_real(Operand& operand, Range range) {
   return in_range(operand.number, range);
 }
 
-/// Checks a constant, variable or function for a variable of one type.
+/// Checks a constant, variable or function that will be compared with or assigned to a variable of one type.
 Error check_typed(Operand& operand, bool for_integer, const Options& options) {
   switch (operand.kind) {
     case Kind::integer:
@@ -88,7 +88,7 @@ Error check_typed(Operand& operand, bool for_integer, const Options& options) {
   return Error::syntax;
 }
 
-/// Checks the value of an assignment. A real variable accepts integers too; a parameter accepts any number.
+/// Checks the value of an assignment. Real variables also accept integers; parameters accept any number.
 Error check_data(Operand& operand, const Operand* target, const Options& options) {
   const bool is_number = is_constant(operand) ||
                          (operand.kind == Kind::quantity && takes_quantities(options)) ||
@@ -110,7 +110,7 @@ void add_error(Error& sum, Error error) {
   if (sum == Error::none || error == Error::syntax) sum = error;
 }
 
-/// Matches items with slots one after another, until a syntax error.
+/// Matches items with slots, one after another, until a syntax error.
 class Matching {
  public:
   Matching(const CommandRow& row, std::span<const std::string_view> items, const Operand* target,
@@ -131,7 +131,7 @@ class Matching {
   static constexpr bool rules_are_in_order();
 
  private:
-  /// How the operand of a slot is read, and how it is checked where that does not depend on other operands.
+  /// How the operand of a slot is read, and how it is checked if the check does not depend on other operands.
   struct Rule {
     Slot slot;
     void (Matching::*take)(Slot) = &Matching::take_one;
@@ -188,7 +188,7 @@ class Matching {
     add(std::move(item));
   }
 
-  /// The form of SAA is printed with Rx,Ry and fa,fz, and explained with four variables.
+  /// The manual prints the form of SAA with Rx,Ry and fa,fz, but explains it with four variables.
   bool is_printed_constant(Slot slot, const Operand& operand) const {
     return row_.verb == Verb::helix_absolute && slot == Slot::real_variable && is_constant(operand) &&
            result_.operands.size() >= 2 && !options_.chose(option("helix_variables", "four_variables"));
@@ -215,7 +215,7 @@ class Matching {
     items_ = items_.subspan(1);
   }
   void take_data(Slot /*slot*/) {
-    // The DATA command names the variable itself.
+    // The DATA command contains the variable as an operand.
     const Operand* target = result_.operands.empty() ? target_ : &result_.operands.back();
     Item item = next_item();
     if (item.error == Error::none) item.error = check_data(item.operand, target, options_);
@@ -244,7 +244,8 @@ class Matching {
       items_ = items_.subspan(1);
     }
   }
-  /// The condition's word is in the same item as the event; the rest is checked like the operands of a jump.
+  /// The word of the condition is in the same item as the event. The rest is checked like the operands of a
+  /// jump.
   void take_condition(Slot /*slot*/) {
     const auto word = std::ranges::find(kConditionWords, in_capitals(condition_));
     items_ = items_.subspan(1);

@@ -1,4 +1,4 @@
-// Matches operands with the slots after a command's name.
+// Matches operands with the slots that follow a command's name.
 #pragma once
 
 #include <span>
@@ -16,12 +16,12 @@ struct Operands {
   std::vector<Operand> operands = {};
 };
 
-/// Matches the items after a command's name with a row's slots. `target` is the target of an assignment, null
-/// for a parameter.
+/// Matches the items after a command's name with a row's slots. `target` is the target of an assignment; it
+/// is null for a parameter.
 Operands match_slots(const CommandRow& row, std::span<const std::string_view> items, const Operand* target,
                      const Options& options);
 
-/// Returns the word for an event's condition: "NZ".
+/// Returns the word for the condition of an event: "NZ".
 std::string_view condition_word(Condition condition);
 
 }  // namespace understudy::interpreter::slim

@@ -17,7 +17,7 @@
 namespace understudy::interpreter::slim {
 namespace {
 
-/// Returns true if the parser makes the same command from the command's text.
+/// Returns true if parsing the command's text results in the same command.
 bool reads_back(const Command& command, const Options& options) {
   const ParseResult result = parse_line(text_of(command), options);
   return result.error == Error::none && result.line.command == command;
@@ -32,7 +32,7 @@ bool is_sound(const Event& event, int number, const Options& options) {
     command.operands.push_back({.kind = Operand::Kind::condition, .index = word});
     command.operands.insert(command.operands.end(), event.operands.begin(), event.operands.end());
     const bool has_known_kinds = std::ranges::none_of(event.operands, [](const Operand& operand) {
-      // No condition contains these kinds, whose text needs a valid index.
+      // Conditions do not contain these kinds, whose text needs a valid index.
       return operand.kind >= Operand::Kind::event && operand.kind != Operand::Kind::quantity;
     });
     if (!has_known_kinds || !reads_back(command, options)) return false;
@@ -59,7 +59,7 @@ bool can_hold(const std::optional<Command>& command, Hold hold) {
 bool is_sound(const Frame& frame, const Program& program) {
   if (frame.line < 0 || frame.line > program.size()) return false;
   if (!frame.of_event) return frame.hold == Hold::nothing;
-  if (frame.line == program.size()) return frame.hold == Hold::nothing;  // what it interrupted is forgotten
+  if (frame.line == program.size()) return frame.hold == Hold::nothing;  // the interrupted line is forgotten
   return frame.line < program.size() && can_hold(program.line(frame.line).parsed.command, frame.hold);
 }
 

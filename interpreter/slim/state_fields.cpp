@@ -18,7 +18,7 @@ namespace lang = interpreter::slim;
 
 namespace {
 
-/// The options under which a program can hold everything that any device can hold.
+/// Options with which a program can contain everything that any device can contain.
 constexpr lang::Options kAnyProgram = [] {
   lang::Options options = lang::kWidestDialect;
   options.choose(lang::option("program_size", "4000_lines"));

@@ -1,4 +1,4 @@
-// The state fields of a program and its run (base/state/fields.h), in the order of the bytes.
+// The state fields of a program and its execution (base/state/fields.h), in the order of the saved bytes.
 #pragma once
 
 #include <string>
@@ -84,13 +84,13 @@ struct StateOf<interpreter::slim::Editor> {
   static constexpr auto fields = FieldList{field<&Value::mode>(), field<&Value::line>()};
 };
 
-/// A program is saved as its lines, as they were entered. After reading, the program has the widest dialect;
-/// set_texts() applies the device's own options.
+/// A program is saved as its lines as they were entered. After reading, the program has the widest dialect;
+/// set_texts() then applies the device's own options.
 template <>
 struct StateOf<interpreter::slim::Program> {
   static void write(const interpreter::slim::Program& program, StateWriter& writer);
   static void read(interpreter::slim::Program& program, StateReader& reader);
-  /// Describes a program, for differences between two states.
+  /// Returns the lines, for comparing two states.
   static std::vector<std::string> reported(const interpreter::slim::Program& program) {
     return program.texts();
   }

@@ -50,7 +50,7 @@ std::string text_of(const Operand& operand) {
   switch (operand.kind) {
     case Kind::integer: return std::to_string(static_cast<std::int64_t>(operand.number));
     case Kind::real: {
-      // A whole number keeps a point; otherwise it would be an integer in a place that allows both.
+      // A whole number needs a point; otherwise, it would be an integer where both are allowed.
       const std::string text = text_of(operand.number);
       return text.find_first_of(".e") == std::string::npos ? text + ".0" : text;
     }
@@ -61,7 +61,7 @@ std::string text_of(const Operand& operand) {
     case Kind::port: return "P" + std::to_string(operand.index);
     case Kind::label: return "$" + operand.text;
     case Kind::text: {
-      // A text that contains a quote was sent in full-width quotes.
+      // A text that contains a quote was sent with full-width quotes.
       const bool is_plain = operand.text.find('"') == std::string::npos;
       return is_plain ? "\"" + operand.text + "\"" : "\xE2\x80\x9C" + operand.text + "\xE2\x80\x9D";
     }

@@ -1,4 +1,4 @@
-// Writes a command as text that parse_line() reads back to the same value.
+// Writes a command as text that parse_line() parses to the same value.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace understudy::interpreter::slim {
 
-/// Returns the shortest text that reads back to the same number.
+/// Returns the shortest text that parses to the same number.
 std::string text_of(double number);
 std::string text_of(const Operand& operand);
 std::string text_of(const Command& command);

@@ -34,7 +34,7 @@ constexpr ForeignWord kForeign[] = {{"GOTO", "JP addr"},
                                     {"HOME", "H"},
                                     {"MOVE", "MA x or MR x"}};
 
-/// Returns the word after the label, in upper case and as in the table: "TpMA" for "T1MA".
+/// Returns the word after the label, in upper case and as it appears in the table: "TpMA" for "T1MA".
 std::string word_of(std::string_view line) {
   if (line.starts_with('$')) line = without_blanks(line.substr(std::min(line.find(' '), line.size())));
   std::string word = take_word(line);

@@ -1,4 +1,4 @@
-// Explains a line that is not a command to its author: the word may be known even if the form is not.
+// Explains why a line is not a command: the word may exist although the form does not.
 #pragma once
 
 #include <string>
@@ -6,7 +6,7 @@
 
 namespace understudy::interpreter::slim {
 
-/// "'MA 1,2' is not a form of MA; expected MA x or MA Rn".
+/// Returns "'MA 1,2' is not a form of MA; expected MA x or MA Rn".
 std::string why_not_command(std::string_view line);
 
 }  // namespace understudy::interpreter::slim

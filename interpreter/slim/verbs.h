@@ -1,5 +1,5 @@
-// Verbs by the part that executes them. The machine (machine.h) executes all verbs that flow.h and editor.h
-// do not execute.
+// Verbs grouped by the part that executes them. The machine (machine.h) executes all verbs that flow.h and
+// editor.h do not.
 #pragma once
 
 #include <algorithm>
@@ -22,7 +22,7 @@ inline constexpr Verb kEditingVerbs[] = {
     Verb::program_insert, Verb::program_delete, Verb::download,
 };
 
-/// Verbs that decide: a jump that is taken or not, or a wait that is over at once or not.
+/// Verbs that make a decision: a jump is taken or not, or a wait ends at once or not.
 inline constexpr Verb kDecidingVerbs[] = {Verb::jump_if, Verb::jump_if_within, Verb::wait_input,
                                           Verb::wait_done};
 

@@ -23,12 +23,12 @@ namespace {
 
 using Kind = Operand::Kind;
 
-constexpr double kExactWhole = 9007199254740992.0;  // 2^53; doubles hold all whole numbers up to this one
+constexpr double kExactWhole = 9007199254740992.0;  // 2^53; doubles are exact for whole numbers up to this
 
 Item wrong(Error error) { return {.error = error}; }
 Item right(Operand operand) { return {.operand = std::move(operand)}; }
 
-/// Reads digits only; a number that is too long becomes a large number.
+/// Reads only digits. A number that is too long becomes a large number.
 std::optional<int> whole_number(std::string_view digits) {
   if (digits.empty()) return std::nullopt;
   int number = 0;

@@ -1,4 +1,4 @@
-// Reads the words of a line: blanks, capitals, names, items between commas, and single items.
+// Reads the words of a line: blanks, capitals, names, items between commas, and individual items.
 #pragma once
 
 #include <string>
@@ -15,26 +15,26 @@ constexpr bool is_digit(char c) { return c >= '0' && c <= '9'; }
 constexpr char capital(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
 constexpr bool is_letter(char c) { return capital(c) >= 'A' && capital(c) <= 'Z'; }
 
-std::string_view without_blanks(std::string_view text);  // blanks in front and at the end
+std::string_view without_blanks(std::string_view text);  // leading and trailing blanks
 std::string in_capitals(std::string_view text);
-/// Removes the leading letters and digits from the text and returns them in capitals. JG0 is therefore a
-/// different word from JG, and HON from H.
+/// Removes the leading letters and digits from the text and returns them in capitals. So JG0 and JG are
+/// different words, as are HON and H.
 std::string take_word(std::string_view& text);
-/// Splits a text into its items between commas, without surrounding blanks; none for an empty text.
+/// Splits a text at commas into items without surrounding blanks. An empty text has no items.
 std::vector<std::string_view> split_at_commas(std::string_view text);
 
 /// Returns true if the text is `letters` followed by a number: "EV12", "N0".
 bool is_numbered(std::string_view word, std::string_view letters);
 
-/// Returns `number`, or the largest 32-bit real if the number exceeds it only by rounding: if that real is
-/// written with fewer digits, it can become slightly larger.
+/// Returns `number`, or the largest 32-bit real if the number exceeds that only by rounding: written with
+/// fewer digits, the largest real can become slightly larger.
 double rounded_real(double number);
 
 struct Item {
   Error error = Error::none;
   Operand operand = {};
 };
-/// Parses any operand except a text or a condition. A variable or an element that does not exist is a range
+/// Parses any operand except a text or a condition. If a variable or an element does not exist, it is a range
 /// error.
 Item parse_item(std::string_view text);
 /// Recognise and parse a text in quotes, including the full-width quotes of a Chinese keyboard.

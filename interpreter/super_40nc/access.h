@@ -1,4 +1,4 @@
-// Access to contacts and registers by their operands, for both languages.
+// Access to contacts and registers by operand, for both languages.
 #pragma once
 
 #include <cstddef>
@@ -52,7 +52,7 @@ class Access {
     return static_cast<std::int32_t>(cells_[value_cell(layout_, operand)]);
   }
 
-  // Each of the following returns true if anything has changed.
+  // The following functions return true if anything has changed.
   bool switch_contact(Operand operand, bool on) {
     if (is_special(operand)) return machine_.set_special_contact(operand.number, on);
     return put(contact_cell(layout_, operand), on ? 1 : 0, is_retentive(operand));
@@ -61,7 +61,7 @@ class Access {
     if (is_special(operand)) return machine_.set_special_register(operand.number, value);
     return put(value_cell(layout_, operand), static_cast<std::uint32_t>(value), is_retentive(operand));
   }
-  /// RST: switches off a contact; a timer or counter also loses its value.
+  /// RST: switches off a contact. A timer or counter also loses its value.
   bool reset(Operand operand) {
     const bool counts = operand.letter == Letter::t || operand.letter == Letter::c;
     const bool has_lost_value = counts && write(operand, 0);

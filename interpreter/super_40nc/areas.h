@@ -1,4 +1,4 @@
-// The areas of a SUPER-40NC's program memory: five step programs and the PLC, one area each.
+// The areas of a SUPER-40NC's program memory: five for step programs and one for the PLC.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@ namespace understudy::interpreter::super_40nc {
 
 inline constexpr int kAxisCount = 4;  // X, Y, Z, U: axes 0 to 3
 
-/// The areas, in the order of their slices of a tick.
+/// The areas, in the order in which they run in a tick.
 enum class Area : std::uint8_t { c, x, y, z, u, plc };
 inline constexpr int kAreaCount = 6;
 inline constexpr int kStepProgramCount = 5;  // all but the PLC
@@ -18,11 +18,11 @@ inline constexpr int kStepProgramCount = 5;  // all but the PLC
 struct AreaRow {
   Area area;
   std::string_view name;
-  int steps;          // its capacity
-  int base;           // number of its first step
-  int older_base;     // the count that the Logic chapter, MOV, ZRST and FMV use: C has 500 steps
-  char letter;        // in the manual's lists of areas
-  int run_contact;    // M: 1 runs, 0 pauses; 0 for the PLC
+  int steps;          // capacity
+  int base;           // number of the first step
+  int older_base;     // the numbering of the Logic chapter, MOV, ZRST and FMV, in which C has 500 steps
+  char letter;        // in the manual's lists
+  int run_contact;    // M: 1 run, 0 pause; 0 for the PLC
   int step_register;  // D: the step about to be executed; 0 for the PLC
 };
 

@@ -1,4 +1,4 @@
-// Checks a text line by line, each instruction against its row, and then each area as a whole (structure.h).
+// Checks a text line by line, each instruction against its row, and then each whole area (structure.h).
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -328,7 +328,7 @@ class Checker {
     }
   }
 
-  /// Looks for labels that an earlier area has too.
+  /// Finds labels that also exist in an earlier area.
   void check_common_labels() {
     std::map<std::int32_t, std::pair<std::size_t, int>> first;  // area, step
     for (const AreaRow& row : kAreas) {
@@ -355,13 +355,13 @@ class Checker {
   Checked checked_;
   Program program_;
   bool is_in_area_ = false;
-  bool is_lost_ = false;  // true if its AREA or FILE was wrong
+  bool is_lost_ = false;  // true if the AREA or FILE was wrong
   int file_ = -1;
   Area area_ = Area::c;
   AreaProgram current_;
-  std::vector<Token> places_;  // of its lines in the text
+  std::vector<Token> places_;  // the places of the lines in the text
   std::array<std::vector<Token>, kAreaCount> places_of_areas_;
-  int step_ = 0;  // of the next line, counted within the area
+  int step_ = 0;  // the step of the next line, counted within the area
 };
 
 }  // namespace

@@ -1,5 +1,5 @@
-// What the manual of the SUPER-40NC leaves open about its languages, and what we chose. The model's table has
-// these rows, so a bench can override them and docs/fidelity/super-40nc.md lists them.
+// What the manual of the SUPER-40NC leaves open about its languages, and what we chose. These rows are part
+// of the model's table, so a bench can override them and docs/fidelity/super-40nc.md lists them.
 #pragma once
 
 #include <array>

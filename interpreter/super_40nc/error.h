@@ -1,4 +1,4 @@
-// The numbers of D8094. The manual does not print any, so these numbers are ours.
+// The error numbers in D8094. The manual does not list any, so these numbers are ours.
 #pragma once
 
 #include <array>
@@ -10,11 +10,11 @@ namespace understudy::interpreter::super_40nc {
 
 enum class Code : std::uint8_t {
   none = 0,
-  unknown = 1,     // an unknown instruction or operand, or a pointer to a step at which no instruction begins
-  wrong_area = 2,  // not allowed, or void, in this area
+  unknown = 1,     // unknown instruction or operand, or a pointer to a step where no instruction begins
+  wrong_area = 2,  // not allowed in this area, or without effect
   label_missing = 3,
-  label_twice = 4,  // D8096 has the other label's step
-  pairing = 5,      // CAL and RET, or IF, ELSE and ENDI, do not match; or a stack is full
+  label_twice = 4,  // D8096 contains the step of the other label
+  pairing = 5,      // unmatched CAL and RET, or IF, ELSE and ENDI; or a stack is full
   no_end = 6,
   logic = 7,  // wrong blocks or branches, or contacts without a jump
   division_by_zero = 8,
@@ -30,7 +30,7 @@ enum class Code : std::uint8_t {
   alarm = 18,
   emergency_stop = 19,   // M8002
   no_such_file = 20,     // or recipe
-  axis_taken = 21,       // or it is moving
+  axis_taken = 21,       // or moving
   emergency_input = 22,  // CEMG
   comparator = 23,
 };
@@ -64,7 +64,7 @@ inline constexpr std::array<std::string_view, 24> kCodeWords{
 };
 constexpr std::string_view words_of(Code code) { return kCodeWords[static_cast<std::size_t>(code)]; }
 
-/// Returns true if the program continues after a line with such an error.
+/// Returns true if the program continues after a line with this error.
 constexpr bool leaves_program_running(Code code) {
   return code == Code::wrong_area || code == Code::division_by_zero || code == Code::out_of_range ||
          code == Code::axis_not_owned || code == Code::arc_impossible || code == Code::axis_taken ||

@@ -1,5 +1,6 @@
-// The transition table of step programs: each event in each phase, as data. (Manual, STP 指令, M8000, M8006,
-// M8x02, 主畫面操作說明, MAN(手動)頁操作說明; cells that the manual does not name are ours.)
+// The transition table of step programs: the reaction to each event in each phase, as data. (Manual, STP
+// 指令, M8000, M8006, M8x02, 主畫面操作說明, MAN(手動)頁操作說明. Cells that the manual does not mention are
+// ours.)
 #pragma once
 
 #include <array>
@@ -9,58 +10,58 @@
 namespace understudy::interpreter::super_40nc {
 
 enum class Phase : std::uint8_t {
-  idle,       // its contact is OFF and its pointer 0
+  idle,       // the contact is OFF and the pointer is 0
   executing,  // it is executing lines
-  moving,     // it is waiting for its LIN, arc, DRV, MRK or VDRV 0
-  homing,     // it is waiting for its HOM
-  waiting,    // it is waiting in WAT, WTN or TMR, for an axis that is taken, or because of M8004
-  paused,     // it is between lines, or its wait is suspended
-  held,       // its motion or wait is frozen
+  moving,     // waiting for the end of LIN, an arc, DRV, MRK or VDRV 0
+  homing,     // waiting for the end of HOM
+  waiting,    // waiting in WAT, WTN or TMR, for an axis that is taken, or because of M8004
+  paused,     // between lines, or the wait is suspended
+  held,       // the motion or wait is frozen
 };
 inline constexpr std::size_t kPhaseCount = 7;
 
 enum class Event : std::uint8_t {
-  start,           // its contact turns from 0 to 1; STR; a START key
+  start,           // the contact changes from 0 to 1; STR; a START key
   contact_off,     // M8000 or M8x00 is set to 0
   hold,            // M8006 rises, or a PAUSE key
-  motion_ended,    // the motion of its line has ended
-  single_step,     // the same, with M8001 or M8x01 ON
+  motion_ended,    // the motion of the line has ended
+  single_step,     // like motion_ended, with M8001 or M8x01 ON
   end,             // END
   end_continuous,  // END of C with M8007 or M8600 ON
   stop,            // STP, a STOP key
   reset,           // M8x02 is ON
   emergency,       // M8002 or CEMG is ON
   inhibit,         // M8004 is ON
-  // an axis of its line has met a limit, a soft limit, a comparator or an alarm, or its homing has failed
+  // an axis of the line has reached a limit, a soft limit, a comparator or an alarm, or its homing has failed
   broken,
   file_changed,  // D9001
   plc_stop,
   plc_run,       // STOP to RUN, power-up
-  limit_pauses,  // like broken, for a limit, if limits only pause a program
+  limit_pauses,  // like broken, for a limit, if limits only pause programs
 };
 inline constexpr std::size_t kEventCount = 16;
 
 enum class Reaction : std::uint8_t {
   nothing,
-  fresh_start,   // from line 0, with the parameters' modes and speeds
+  fresh_start,   // from line 0, with the modes and speeds in the parameters
   next_or_wait,  // continues with the next line, or with the suspended wait
-  resume,        // continues what was frozen
-  pause,         // pauses between lines; a wait is suspended
-  pause_later,   // pauses when its motion has ended
-  hold,          // like pause, and holds the motions outside the lines
-  freeze,        // freezes its motion or wait, and the motions outside the lines
+  resume,        // continues the frozen motion or wait
+  pause,         // pauses between lines; suspends a wait
+  pause_later,   // pauses when the motion has ended
+  hold,          // like pause, and also holds the motions outside lines
+  freeze,        // freezes the motion or wait, and the motions outside lines
   next_line,
-  forget,        // becomes idle: drops its pointer, calls, waits and held motions; motors continue
-  restart,       // gives END's signal, and makes a fresh start
-  stop_motors,   // stops its motors, and stays idle
-  stop,          // stops its motors at once, and forgets
-  broken,        // forgets; the machine has stopped the motors
+  forget,        // becomes idle: drops the pointer, calls, waits and held motions; motors continue
+  restart,       // outputs the END signal, and makes a fresh start
+  stop_motors,   // stops the motors, and stays idle
+  stop,          // stops the motors at once, and forgets
+  broken,        // forgets; the machine has already stopped the motors
   motions_wait,  // the next motion line waits
-  rest_waits,    // frozen motion continues only afterwards
-  same_step,     // continues at the same step in the new file
+  rest_waits,    // the frozen motion continues only afterwards
+  same_step,     // continues at the same step of the new file
 };
 
-/// The reactions by event and phase.
+/// The reaction to each event in each phase.
 inline constexpr auto kReactions = [] {
   using enum Reaction;
   return std::array<std::array<Reaction, kPhaseCount>, kEventCount>{{
@@ -88,8 +89,8 @@ constexpr Reaction reaction_of(Event event, Phase phase) {
   return kReactions[static_cast<std::size_t>(event)][static_cast<std::size_t>(phase)];
 }
 
-/// The effect of an event on motions outside the lines (a DRV with CHK 0, VDRV), and on axes that follow the
-/// wheel by MPG. The machine receives the same calls as for its line.
+/// The effect of an event on motions outside lines (a DRV with CHK 0, VDRV), and on axes that follow the
+/// wheel by MPG. The machine receives the same calls as for the program's line.
 enum class OutsideEffect : std::uint8_t { continues, is_held, is_stopped, machine_knows };
 struct OutsideEffectRow {
   Event event;

@@ -9,7 +9,7 @@
 
 namespace understudy::interpreter::super_40nc {
 
-/// Returns the values field by field: X, Y, Z, U.
+/// Returns the values of the fields X, Y, Z and U.
 inline AxisValues axis_values(const Instruction& line, const Access& access) {
   AxisValues values;
   for (std::size_t i = 0; i < values.size(); ++i) {
@@ -18,7 +18,7 @@ inline AxisValues axis_values(const Instruction& line, const Access& access) {
   return values;
 }
 
-/// Returns the axes whose field is set and not 0 (HOM, PJG, MJG, STP, STR).
+/// Returns the axes whose fields are set and not 0 (HOM, PJG, MJG, STP, STR).
 inline AxisSet chosen_axes(const AxisValues& values) {
   AxisSet axes = 0;
   for (std::size_t i = 0; i < values.size(); ++i) {

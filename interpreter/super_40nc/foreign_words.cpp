@@ -21,7 +21,7 @@ namespace {
 
 struct ForeignWord {
   std::string_view word;
-  std::string_view here;  // "AD=, a comparison in series"
+  std::string_view here;  // the equivalent: "AD=, a comparison in series"
 };
 
 inline constexpr auto kForeignWords = std::to_array<ForeignWord>({
@@ -60,7 +60,7 @@ inline constexpr auto kForeignWords = std::to_array<ForeignWord>({
     {"GOTO", "JMP"},
 });
 
-/// The meaning in other languages of a letter that does not begin an operand here.
+/// A letter that begins an operand in other languages but not here, and its meaning there.
 struct ForeignLetter {
   char letter;
   std::string_view what;      // "an index register"
@@ -81,7 +81,7 @@ bool is_of_data(std::string_view word) {
   return row != nullptr && row->group == Group::data;
 }
 
-/// Removes the D of 32-bit instructions (LDD=, ANDD>, DADD). Returns an empty text for other words.
+/// Removes the D of 32-bit instructions (LDD=, ANDD>, DADD). Returns an empty text for all other words.
 std::string without_width(const std::string& word) {
   std::string narrow = word.starts_with('D') ? word.substr(1) : word;
   const std::size_t relation = word.find_first_of("=<>");

@@ -109,7 +109,7 @@ enum class Op : std::uint8_t {
   str,
   pset,
   mset,
-  // names without a description
+  // Names that have no description
   m,
   brk,
   aost,
@@ -125,15 +125,15 @@ enum class Slot : std::uint8_t {
   none,        // the field must be unset
   contact,     // read
   bit,         // switched
-  resettable,  // for RST: like bit, and also timers and counters if a choice allows it
+  resettable,  // for RST: like bit, and also timers and counters if a choice allows them
   timer,       // the coil of a timer or counter
   preset,
   source,  // a value
   target,  // a register that is written
   range,   // an end of ZRST's range
-  label,   // K 0 to 9999999
-  times,   // unset means once
-  amount,  // a value; the row's `unset` describes an unset field
+  label,   // K0 to K9999999
+  times,   // an unset field means once
+  amount,  // a value; the row's `unset` describes the meaning of an unset field
   needed,  // must be set
 };
 
@@ -156,7 +156,7 @@ constexpr Letters letters_of(Slot slot) {
   }
   return 0;
 }
-/// Describes the allowed operands.
+/// Returns a description of the allowed operands.
 constexpr std::string_view describe(Slot slot) {
   switch (slot) {
     case Slot::none: return "";
@@ -179,17 +179,17 @@ constexpr bool may_be_unset(Slot slot) {
   return slot == Slot::none || slot == Slot::times || slot == Slot::amount;
 }
 
-/// Returns the field without which F, TMR, CWR and CCWR have no meaning, or none for other instructions.
+/// Returns the field that F, TMR, CWR and CCWR need, or none for other instructions.
 constexpr std::size_t place_of_needed(Op op) {
   constexpr std::size_t kNone = 4;
   if (op == Op::f || op == Op::tmr) return 0;
   return op == Op::cwr || op == Op::ccwr ? 2 : kNone;
 }
 
-/// How an instruction uses its condition in the PLC.
+/// How an instruction in the PLC uses its condition.
 enum class ConditionUse : std::uint8_t {
-  nothing,  // not in the PLC, or without a condition
-  contact,  // it contributes to the condition
+  nothing,  // not in the PLC, or has no condition
+  contact,  // is part of the condition
   every_scan,
   every_scan_on_or_off,
   rising_edge,
@@ -197,7 +197,7 @@ enum class ConditionUse : std::uint8_t {
   level,
 };
 
-/// What a step program waits for at this line.
+/// What a step program waits for in this line.
 enum class Waits : std::uint8_t { no, for_on, for_off, for_time, for_arrival, for_home, for_standstill };
 
 using Slots = std::array<Slot, 4>;
@@ -206,15 +206,15 @@ struct InstructionRow {
   Op op;
   std::string_view mnemonic;
   Group group;
-  Areas areas;  // areas in which it is allowed
+  Areas areas;  // where it is allowed
   int steps;
   Slots slots;
   ConditionUse in_plc;
-  std::string_view meaning;  // description in the documentation
+  std::string_view meaning;  // for the documentation
   std::string_view section;  // of the manual
   Waits waits = Waits::no;
   bool ends_single_step = false;
-  Areas void_in = 0;            // areas in which it is allowed but has no effect, which D8094 reports
+  Areas void_in = 0;            // where it is allowed but has no effect, which D8094 reports
   std::string_view unset = {};  // the meaning of an unset field
 
   constexpr int fields() const {
@@ -223,7 +223,7 @@ struct InstructionRow {
     return count;
   }
 
-  // These functions set properties that few rows have.
+  // These functions set properties that only a few rows have.
   constexpr InstructionRow waits_for(Waits what) const {
     InstructionRow row = *this;
     row.waits = what;
@@ -246,7 +246,7 @@ struct InstructionRow {
   }
 };
 
-// These functions make rows, grouped as in the manual.
+// These functions create rows, grouped as in the manual.
 constexpr InstructionRow logic(Op op, std::string_view mnemonic, Areas areas, int steps, const Slots& slots,
                                ConditionUse in_plc, std::string_view meaning, std::string_view section) {
   return {op, mnemonic, Group::logic, areas, steps, slots, in_plc, meaning, section};
@@ -265,7 +265,7 @@ constexpr InstructionRow motion(Op op, std::string_view mnemonic, Areas areas, i
                                 ConditionUse in_plc, std::string_view meaning, std::string_view section) {
   return {op, mnemonic, Group::motion, areas, steps, slots, in_plc, meaning, section};
 }
-/// Makes the row of an instruction without a description, which is refused when it is loaded.
+/// Creates the row of an instruction that has no description. It is refused when it is loaded.
 constexpr InstructionRow undescribed(Op op, std::string_view mnemonic, std::string_view section) {
   return {op,     mnemonic, Group::undocumented,   0,
           1,      {},       ConditionUse::nothing, "Only named in the manual; refused",

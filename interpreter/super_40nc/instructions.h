@@ -1,5 +1,5 @@
-// A SUPER-40NC's program languages as data: every mnemonic with its areas, fields, steps and meaning.
-// (Manual, 指令使用說明一覽表 and the chapter of each.)
+// The SUPER-40NC's program languages as data: every mnemonic with its areas, fields, steps and meaning.
+// (Manual, 指令使用說明一覽表, and a chapter for each instruction.)
 #pragma once
 
 #include <array>
@@ -38,7 +38,7 @@ inline constexpr Slots kRadius{Slot::amount, Slot::amount, Slot::needed};
 
 }  // namespace instruction_words
 
-/// The instructions in the order of Op. OUTtc is written OUT: the first field distinguishes them.
+/// The instructions in the order of Op. OUTtc is written as OUT; the first field distinguishes the two.
 inline constexpr std::array<InstructionRow, kOpCount> kInstructions = [] {
   using namespace instruction_words;
   return std::array<InstructionRow, kOpCount>{
@@ -285,7 +285,7 @@ inline constexpr std::array<InstructionRow, kOpCount> kInstructions = [] {
       motion(Op::mset, "MSET", kAll, 4, kFourAmounts, ConditionUse::every_scan,
              "Sets the machine coordinates of axes; nothing moves", "指令一覽表")
           .without("the axis is not affected"),
-      // Names without a description
+      // Names that have no description
       undescribed(Op::m, "M", "Motion指令一覽表"),
       undescribed(Op::brk, "BRK", "Motion指令一覽表"),
       undescribed(Op::aost, "AOST", "Motion指令一覽表"),
@@ -296,8 +296,8 @@ inline constexpr std::array<InstructionRow, kOpCount> kInstructions = [] {
 
 constexpr const InstructionRow& row_of(Op op) { return kInstructions[static_cast<std::size_t>(op)]; }
 
-/// Checks that the number of steps matches the fields. The target of a jump has its own step, and CWR and
-/// CCWR have four.
+/// Checks that the number of steps matches the number of fields. The target of a jump has a step of its own,
+/// and CWR and CCWR have four steps.
 consteval bool table_makes_sense() {
   for (std::size_t i = 0; i < kInstructions.size(); ++i) {
     const InstructionRow& row = kInstructions[i];

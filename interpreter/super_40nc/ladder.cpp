@@ -30,7 +30,7 @@ constexpr bool is_edge_contact(Op op) {
 constexpr bool is_falling(Op op) { return op == Op::ldf || op == Op::orf || op == Op::anf; }
 constexpr bool is_plain(Operand operand) { return !is_special(operand); }
 
-/// Instructions that have their own kind of step, if the device that they switch or write is a plain one.
+/// Instructions that have a special kind of step if the device that they switch or write is a plain one.
 constexpr std::pair<Op, Act> kActs[] = {
     {Op::anb, Act::join_series},  {Op::orb, Act::join_parallel}, {Op::mps, Act::branch},
     {Op::mrd, Act::branch_again}, {Op::mpp, Act::branch_last},   {Op::inv, Act::invert},
@@ -148,7 +148,7 @@ class LadderMaker {
     step.flags = is_retentive(bit) ? kRetentive : 0;
   }
 
-  /// Makes the step of a timer or counter: a is the contact, b the preset, c the value.
+  /// Creates the step of a timer or counter: a is the contact, b the preset, c the value.
   void make_count(const Instruction& line, LadderStep& step) {
     const Operand what = line.fields[0];
     const bool is_timer = what.letter == Letter::t;
@@ -195,7 +195,8 @@ class LadderMaker {
     if (line.op == Op::fmv) note(second, third.letter == Letter::k ? third.number : INT32_MAX);
   }
 
-  /// Marks timers whose value is read, or that another instruction also uses: these must not run unobserved.
+  /// Marks timers whose value is read, or that another instruction also uses. These timers must not be
+  /// skipped.
   void check_timers() {
     std::set<std::uint32_t> seen = timers_read_;
     for (const std::uint32_t index : ladder_.timers_) {
@@ -208,8 +209,8 @@ class LadderMaker {
   const CellLayout& layout_;
   const Options& options_;
   std::set<std::pair<Letter, std::int32_t>> reads_;
-  std::map<std::pair<Letter, std::int32_t>, std::uint16_t> memories_;  // of edges, by bit
-  std::set<std::uint32_t> timers_read_;                                // cells of values
+  std::map<std::pair<Letter, std::int32_t>, std::uint16_t> memories_;  // edge memories, by bit
+  std::set<std::uint32_t> timers_read_;                                // cells of timer values
 };
 
 Ladder::Ladder(const AreaProgram& program, const CellLayout& layout, const Options& options)

@@ -1,4 +1,4 @@
-// A compiled PLC program: its lines, decoded once into small steps that refer to cells.
+// A compiled PLC program: its lines, decoded into small steps that refer to cells.
 #pragma once
 
 #include <cstddef>
@@ -14,10 +14,10 @@ namespace understudy::interpreter::super_40nc {
 
 /// The action of a step.
 enum class Act : std::uint8_t {
-  load,  // contacts: begin a block, are in series, or are in parallel
+  load,  // a contact that begins a block, or is in series or in parallel
   series,
   parallel,
-  load_edge,  // the same with a memory: ON for the scan of an edge
+  load_edge,  // the same with a memory: ON during the scan of an edge
   series_edge,
   parallel_edge,
   load_comparison,
@@ -41,7 +41,7 @@ enum class Act : std::uint8_t {
   end,
 };
 
-/// The place where a step finds a value or contact.
+/// Where a step finds a value or a contact.
 enum class Bank : std::uint8_t { cells, constants, special };
 
 inline constexpr std::uint16_t kNoLine = UINT16_MAX;  // the end of a program without END
@@ -50,10 +50,10 @@ struct LadderStep {
   Act act = Act::end;
   Bank bank_a = Bank::cells;
   Bank bank_b = Bank::cells;
-  std::uint8_t flags = 0;  // kInverted and others; for a comparison, its Relations
+  std::uint8_t flags = 0;  // kInverted and others; the Relations of a comparison
   std::uint16_t line = kNoLine;
   std::uint16_t memory = 0;  // for edges
-  std::uint32_t a = 0;       // cell, index into the constants, or number of a special contact or register
+  std::uint32_t a = 0;       // a cell, an index into the constants, or a special number
   std::uint32_t b = 0;
   std::uint32_t c = 0;  // the cell to write
 };
@@ -71,15 +71,15 @@ class Ladder {
   const std::vector<LadderStep>& steps() const { return steps_; }
   const std::vector<std::uint32_t>& constants() const { return constants_; }
   const Instruction& line(std::size_t number) const { return program_.lines[number]; }
-  /// Returns the step of a line, counted as in D8095.
+  /// Returns the step number of a line, counted as in D8095.
   int step_of(std::size_t line) const { return step_numbers_[line]; }
-  /// Returns the number of memories of edges, timers and counters.
+  /// Returns how many memories the edges, timers and counters need.
   std::size_t memory_count() const { return memory_count_; }
   const std::vector<std::uint32_t>& timers() const { return timers_; }  // indices of steps
 
-  /// Returns everything that a scan may read, without repetitions. If none of it has changed since a scan
-  /// that changed nothing, another scan would not change anything either. Special contacts and registers may
-  /// be computed, so the device must handle these.
+  /// Returns everything that a scan may read, without duplicates. If none of it has changed since a scan that
+  /// changed nothing, another scan will not change anything either. Special contacts and registers may be
+  /// computed, so the device must check those itself.
   const std::vector<Operand>& reads() const { return reads_; }
 
  private:

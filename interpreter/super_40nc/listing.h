@@ -1,11 +1,11 @@
-// Programs as text and back, without loss: list() and check() again give the same program.
+// Programs as text and back, without loss: check(list(program)) returns the same program.
 //
-//   AREA X BASE 500          ; C, X, Y, Z, U or PLC; BASE: its first step, if not the area's
-//   500 LD X0                ; one instruction per line, in any case; its step is checked if given
+//   AREA X BASE 500          ; C, X, Y, Z, U or PLC; BASE: the first step, if different
+//   500 LD X0                ; one instruction per line, in any case; the optional step number is checked
 //   501 CJ K10               ; K: constants and labels
 //       END
 //       LAB K10
-//       DRV K1000, *, K-50   ; *: an unset field, optional at the end; commas may separate
+//       DRV K1000, *, K-50   ; *: an unset field, optional at the end; commas are optional
 //       OUT T0 K1000
 //       END
 //   FILE 3                   ; the C program of path file 3
@@ -39,17 +39,17 @@ struct Diagnostic {
   bool operator==(const Diagnostic&) const = default;
 };
 
-/// "4:9: X50 does not exist; expected X0 to X47".
+/// Returns "4:9: X50 does not exist; expected X0 to X47".
 std::string to_string(const Diagnostic& diagnostic);
 
 struct Checked {
-  std::optional<Program> program;  // only if nothing is wrong
-  /// Where the lines of areas and of files are in the text, from 1.
+  std::optional<Program> program;  // empty if there is an error
+  /// Where the lines of areas and files are in the text, counted from 1.
   std::array<std::vector<int>, kAreaCount> area_lines;
   std::map<int, std::vector<int>> file_lines;
   std::vector<Diagnostic> errors;    // the first kMaxMistakes, in the order of the text
-  std::vector<Diagnostic> warnings;  // it loads, but this is reported: a duplicate label
-  std::vector<Diagnostic> notes;     // it loads, and this is not reported: a jump without its label
+  std::vector<Diagnostic> warnings;  // the program loads, but this is reported: a duplicate label
+  std::vector<Diagnostic> notes;     // the program loads, and this is not reported: a jump without its label
 };
 
 inline constexpr int kGreatestFile = 29999;

@@ -1,4 +1,4 @@
-// The device's registers and contacts on which programs depend without naming them.
+// The registers and contacts of the device that programs use implicitly.
 #pragma once
 
 namespace understudy::interpreter::super_40nc::named {

@@ -25,7 +25,7 @@ constexpr std::int32_t wrapped(std::int64_t value) {
   return static_cast<std::int32_t>(static_cast<std::uint32_t>(value));
 }
 
-/// Returns the register that follows another one in its block, or unset at the end of the block.
+/// Returns the next register in the same block, or unset at the end of the block.
 Operand next_to(Operand reg) {
   const Block* const block = block_of(reg);
   if (block == nullptr || reg.number == block->last) return {};
@@ -56,7 +56,7 @@ Calculated divide(const Instruction& line, Access& access, const Options& option
   return result;
 }
 
-/// FMV: writes registers in ascending order, so each write takes effect in turn.
+/// FMV: writes registers in ascending order. Each write takes effect before the next one.
 Calculated fill(const Instruction& line, Access& access, const Options& options) {
   const std::int64_t count = access.value(line.fields[2]);
   const Block* const block = block_of(line.fields[1]);
@@ -129,7 +129,7 @@ constexpr HandlerRow<Op, Calculation> kCalculationRows[] = {
                  const auto&) { return gives(line, 0, value(line, 0, access) - 1, access); }},
     {Op::abs,
      [](const auto& line, auto& access, const auto&) {
-       return gives(line, 0, std::abs(value(line, 0, access)), access);  // INT32_MIN stays as it is
+       return gives(line, 0, std::abs(value(line, 0, access)), access);  // INT32_MIN does not change
      }},
 };
 constexpr std::array kCalculationOps{Op::mov, Op::zrst, Op::fmv, Op::add, Op::sub,

@@ -1,4 +1,4 @@
-// The data instructions, for both languages: signed 32-bit numbers that wrap. (Manual, Data 指令一覽表.)
+// The data instructions of both languages: signed 32-bit numbers that wrap. (Manual, Data 指令一覽表.)
 #pragma once
 
 #include "interpreter/super_40nc/access.h"
@@ -13,19 +13,19 @@ struct Calculated {
   Code code = Code::none;
 };
 
-/// Executes one of MOV to DIV, INC, DEC, ABS.
+/// Executes one of MOV to DIV, INC, DEC and ABS.
 Calculated calculate(const Instruction& instruction, Access& access, const Options& options);
 constexpr bool is_calculation(Op op) {
   return (op >= Op::mov && op <= Op::div) || (op >= Op::inc && op <= Op::abs);
 }
 
-/// The possible relations of two values: bit 0 less, bit 1 equal, bit 2 greater.
+/// The possible relations of two values. Bit 0: less, bit 1: equal, bit 2: greater.
 using Relations = std::uint8_t;
 constexpr Relations relation_of(std::int32_t first, std::int32_t second) {
   return static_cast<Relations>((first < second ? 1U : 0U) | (first == second ? 2U : 0U) |
                                 (first > second ? 4U : 0U));
 }
-/// Returns the relations of a comparing contact; 0 for other instructions.
+/// Returns the relations for which a comparing contact is ON; 0 for other instructions.
 constexpr Relations relations_of(Op op) {
   if (op < Op::ld_equal || op > Op::or_ge) return 0;
   constexpr Relations kInOrder[] = {2, 4, 1, 1 | 4, 1 | 2, 2 | 4};  // = > < <> <= >=

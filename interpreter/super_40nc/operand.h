@@ -1,4 +1,4 @@
-// The possible contents of a field of an instruction: a constant, a contact or a register, and which of them
+// The possible contents of an instruction's field (a constant, a contact or a register), and which of them
 // exist. (Manual, 接點元件編號一覽表, 暫存器元件編號一覽表.) All numbers are decimal; registers have 32 bits.
 #pragma once
 
@@ -9,7 +9,7 @@
 
 namespace understudy::interpreter::super_40nc {
 
-/// The letter of an operand. `unset` is printed as "*****", and is `*` in a listing.
+/// The letter of an operand. The manual prints `unset` as "*****"; a listing writes `*`.
 enum class Letter : std::uint8_t { unset, k, x, y, m, t, c, d };
 
 struct Operand {
@@ -29,13 +29,13 @@ constexpr bool has(Letters some, Letter letter) {
   return ((some >> static_cast<unsigned>(letter)) & 1U) != 0;
 }
 
-/// Devices of one letter with consecutive numbers. The devices from `kept` on are retentive.
+/// Devices with the same letter and consecutive numbers. The devices from `kept` on are retentive.
 struct Block {
   Letter letter;
   int first;
   int last;
   int kept;      // 1 + last if none is retentive
-  bool special;  // the device computes the value, and acts on a write
+  bool special;  // the device computes the value and reacts to writes
 };
 
 inline constexpr std::array<Block, 9> kBlocks{{
@@ -50,7 +50,7 @@ inline constexpr std::array<Block, 9> kBlocks{{
     {Letter::d, 9000, 9499, 9000, true},
 }};
 
-/// Returns null for a constant, or if there is no such device.
+/// Returns null for a constant, and if there is no such device.
 constexpr const Block* block_of(Operand operand) {
   for (const Block& block : kBlocks) {
     if (block.letter == operand.letter && operand.number >= block.first && operand.number <= block.last) {

@@ -1,4 +1,4 @@
-// The options in effect for the languages. The interpreter looks them up through this header.
+// The selected options for the languages. The interpreter looks them up through this header.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +21,7 @@ consteval Options::Named option(std::string_view id, std::string_view name) {
   return Options::named(id, name);
 }
 
-/// Returns the depth of the block stack and of the branch stack.
+/// Returns the depth of the block stack, which is also that of the branch stack.
 inline int stack_depth(const Options& options) {
   if (options.chose(option("stack_depth", "8"))) return 8;
   return options.chose(option("stack_depth", "11")) ? 11 : 16;
@@ -33,7 +33,7 @@ inline int call_depth(const Options& options) { return options.chose(option("cal
 /// Returns how many instructions of a step program run in a tick.
 inline int slice(const Options& options) { return options.chose(option("slice_length", "1_line")) ? 1 : 64; }
 
-/// Returns the milliseconds from one scan to the next.
+/// Returns the time between scans in milliseconds.
 inline int scan_ms(const Options& options) {
   if (options.chose(option("scan_time", "2_ms"))) return 2;
   return options.chose(option("scan_time", "5_ms")) ? 5 : 1;
@@ -44,12 +44,12 @@ inline int timer_unit_ms(const Options& options) {
   return options.chose(option("timer_unit", "1s")) ? 1000 : 1;
 }
 
-/// Returns true if a field of RPM changes the speed of its axis.
+/// Returns true if the field of RPM changes the speed of the axis.
 inline bool sets_speed(const std::optional<std::int32_t>& rpm, const Options& options) {
   return rpm && (*rpm > 0 || !options.chose(option("rpm_not_positive", "keeps_the_speed")));
 }
 
-/// Returns the number of an area's first step, as D8095 and D8096 count.
+/// Returns the number of an area's first step in D8095 and D8096.
 inline int base_of(Area area, const Options& options) {
   if (options.chose(option("area_bases", "each_from_0"))) return 0;
   return options.chose(option("area_bases", "newer")) ? row_of(area).base : row_of(area).older_base;

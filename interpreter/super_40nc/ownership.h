@@ -1,4 +1,4 @@
-// The axes that a program may move: C21 (D9003) assigns the first axes to C. (Manual, C21, 故障排除.)
+// The axes that a program may move. C21 (D9003) assigns the first axes to C. (Manual, C21, 故障排除.)
 #pragma once
 
 #include <algorithm>
@@ -8,13 +8,13 @@
 
 namespace understudy::interpreter::super_40nc {
 
-/// Returns how many axes, from the first on, belong to C.
+/// Returns how many axes belong to C, counted from the first one.
 inline int axes_of_c(const Machine& machine) {
   return std::clamp(machine.parameter_in_force(named::kOwnedAxes), 0, kAxisCount);
 }
 
-/// Returns true if a program may move an axis: C its own axes, an axis program its own axis unless that is
-/// C's, and the PLC those of C only while C is not running.
+/// Returns true if a program may move an axis. C may move its own axes; an axis program may move its axis
+/// unless it belongs to C; the PLC may move the axes of C only while C is not running.
 inline bool may_move(const Machine& machine, const Options& options, Area by, int axis) {
   const bool is_of_c = axis < axes_of_c(machine);
   if (by == Area::c) return is_of_c;

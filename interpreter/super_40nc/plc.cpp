@@ -19,12 +19,12 @@
 namespace understudy::interpreter::super_40nc {
 namespace {
 
-/// The memory of a timer that no scan has seen since RUN.
+/// The memory of a timer that no scan has executed since RUN.
 constexpr std::int32_t kNotTimedYet = INT32_MIN;
 constexpr auto kWatchedPart = static_cast<int>(Area::plc);
 
-/// The registers of a scan: cells and constants next to each other, blocks and branches as shift registers of
-/// bits, whose bit 0 is the top.
+/// The working data of a scan: pointers to cells and constants, and shift registers of bits for blocks and
+/// branches, whose bit 0 is the top.
 class Scan {
  public:
   Scan(PlcState& plc, const Ladder& ladder, Machine& machine, StepControl& programs, const Options& options)
@@ -38,8 +38,8 @@ class Scan {
         a_unit_is_over_(plc.unit_ms + scan_ms(options) >= timer_unit_ms(options)),
         growth_(timer_unit_ms(options) <= 1 ? scan_ms(options) : 1) {}
 
-  /// `is_watched`: an observer is notified of each step. Anything that costs a call is inlined in both
-  /// variants; with two callers, the compiler would not inline it, and a scan would take a fifth longer.
+  /// `is_watched`: an observer is notified of each step. Expensive calls are inlined in both variants. With
+  /// two callers, the compiler would not inline them on its own, and a scan would take a fifth longer.
   template <bool is_watched>
   void steps(const LadderStep* step) {
     for (;; ++step) {
@@ -163,7 +163,7 @@ class Scan {
     if ((flags & kRetentive) != 0) machine_.retentive_cell_written(cell);
   }
 
-  /// Runs a timer. Its value is 0 in the scan that turns it ON, and grows in each later scan.
+  /// Runs a timer. Its value is 0 in the scan in which it is switched on, and increases in each later scan.
   [[gnu::always_inline]] void time(const LadderStep& step) {
     const bool is_on = result();
     const bool was_on = remember(step.memory, is_on);
@@ -205,7 +205,7 @@ class Scan {
     if (plc_.timed.size() <= step.memory) plc_.timed.resize(std::size_t{step.memory} + 1, kNotTimedYet);
     return plc_.timed[step.memory];
   }
-  /// Undoes a write to the timer's value, if a choice ignores such writes.
+  /// Undoes a write to the timer's value if a choice ignores such writes.
   void undo_write(const LadderStep& step) {
     if (!options_.chose(option("timer_write", "ignored")) || timed(step) == kNotTimedYet) return;
     put(step.c, static_cast<std::uint32_t>(timed(step)), step.flags);
@@ -235,7 +235,7 @@ class Scan {
   const Options& options_;
   std::uint64_t depth_mask_;
   bool a_unit_is_over_;
-  std::int32_t growth_;  // of a timer
+  std::int32_t growth_;  // the increase of a timer in this scan
   std::uint64_t blocks_ = 0;
   std::uint64_t branches_ = 0;
   bool has_changed_ = false;
@@ -288,7 +288,7 @@ Scanned scan(PlcState& plc, const Ladder& ladder, Machine& machine, StepControl&
 
 namespace {
 
-/// Returns true if a contact conducts in scans that change nothing and so have no edges.
+/// Returns true if a contact is ON in scans that change nothing, and so have no edges.
 bool conducts_quietly(const Instruction& line, const Access& access) {
   if (const Relations relations = relations_of(line.op); relations != 0) {
     return (relation_of(access.value(line.fields[0]), access.value(line.fields[1])) & relations) != 0;
@@ -322,7 +322,7 @@ void fast_forward(PlcState& plc, const Ladder& ladder, Machine& machine, std::in
     const std::int64_t present = static_cast<std::int32_t>(cells[timer.c]);
     if (present >= preset) continue;
     const bool is_retentive = (timer.flags & kRetentive) != 0;
-    // A retentive value is saved once for each scan, so the scans are counted one by one.
+    // A retentive value is saved in each scan, so the scans are counted one by one.
     for (std::int64_t scan = is_retentive ? 1 : scans; scan <= scans; ++scan) {
       cells[timer.c] = static_cast<std::uint32_t>(present + scan);
       if (is_retentive) machine.retentive_cell_written(timer.c);

@@ -16,7 +16,7 @@
 
 namespace understudy::interpreter::super_40nc {
 
-/// Returns true if the condition has changed. By choice, some instructions see no edge at RUN.
+/// Returns true if the condition has changed. A choice can hide the edge at RUN from some instructions.
 bool PlcLines::count_as_edge(const LadderStep& step, bool is_on, bool& fires) {
   const Op op = ladder_.line(step.line).op;
   const bool was_on = std::exchange(plc_.memories[step.memory], is_on ? 1 : 0) != 0;
@@ -85,7 +85,7 @@ bool PlcLines::set_modes(const Instruction& line) {
   return access_.machine().set_positions({values, line.op == Op::mset});
 }
 
-/// Returns the values of the axes that the PLC may move.
+/// Returns the values for the axes that the PLC may move.
 AxisValues PlcLines::movable(AxisValues values, int step) {
   bool is_void = false;
   for (int axis = 0; axis < kAxisCount; ++axis) {
@@ -119,7 +119,7 @@ bool PlcLines::begin_motion(const Instruction& line, int step) {
   return true;
 }
 
-/// STR, STP: if no field is set, they mean C.
+/// STR, STP: if no field is set, the instruction applies to C.
 void PlcLines::control_programs(const Instruction& line) {
   const AxisValues values = axis_values(line, access_);
   const AxisSet axes = chosen_axes(values);

@@ -1,5 +1,5 @@
-// The instructions of the PLC that are not decoded into small steps: rare outputs, numbers that act on the
-// device, and motion by level or by edge.
+// The PLC instructions that are not decoded into small steps: rare outputs, data instructions that act on the
+// device, and motion that depends on a level or an edge.
 #pragma once
 
 #include "interpreter/super_40nc/access.h"
@@ -7,7 +7,7 @@
 
 namespace understudy::interpreter::super_40nc {
 
-/// Returns true if an instruction acts at the edge of its condition only because of a choice.
+/// Returns true if an instruction reacts to the edge of its condition only because of a choice.
 inline bool needs_edge(Op op, const Options& options) {
   const bool is_mode = op == Op::absc || op == Op::incc || op == Op::rpm || op == Op::pset || op == Op::mset;
   return options.chose(option("instruction_edges", "all_on_the_edge")) && (is_mode || op == Op::stp);

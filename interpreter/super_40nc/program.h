@@ -31,9 +31,9 @@ struct AreaProgram {
 };
 
 struct Program {
-  // areas that a listing does not contain are empty
+  // areas that are missing from a listing are empty
   std::array<std::optional<AreaProgram>, kAreaCount> areas = {};
-  std::map<int, AreaProgram> files = {};  // programs of C, by number
+  std::map<int, AreaProgram> files = {};  // programs for C, by number
 
   const std::optional<AreaProgram>& area(Area which) const { return areas[index_of(which)]; }
   bool operator==(const Program&) const = default;

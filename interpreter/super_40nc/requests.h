@@ -1,4 +1,4 @@
-// The motion requests of programs, by value: a struct for each kind of motion instruction. They omit unset
+// The motion requests of programs as values: a struct for each kind of motion instruction. They omit unset
 // fields, axes that the area does not read, and axes that the program does not own (C21).
 #pragma once
 
@@ -13,10 +13,10 @@ namespace understudy::interpreter::super_40nc {
 
 /// A value for each axis, or none.
 using AxisValues = std::array<std::optional<std::int32_t>, kAxisCount>;
-/// Bit n: axis n.
+/// Bit n selects axis n.
 using AxisSet = std::uint8_t;
 
-/// ABSC: relative to the work zero. INCC: relative to the last commanded place, or to the current one (ABSC ,
+/// ABSC: relative to the work zero. INCC: relative to the last commanded place or to the current one (ABSC ,
 /// INCC 指令).
 enum class Targets : std::uint8_t { absolute, relative };
 enum class Plane : std::uint8_t { xy, xz, yz };
@@ -46,7 +46,7 @@ struct LinearMove {
 struct CentreArc {
   Plane plane = Plane::xy;
   Turn turn = Turn::clockwise;
-  PlanePoint end_lu;                        // if both are unset, or equal to the start: a full circle
+  PlanePoint end_lu;                        // if both are unset or equal to the start: a full circle
   std::array<std::int32_t, 2> centre_lu{};  // unset: 0
   Targets targets = Targets::absolute;
   std::int32_t feed_lu_per_s = 0;
@@ -63,7 +63,7 @@ struct PointArc {
   bool operator==(const PointArc&) const = default;
 };
 
-/// CWR, CCWR. A negative radius means more than half a circle. The arc is ignored if the end is the start.
+/// CWR, CCWR. A negative radius means more than half a circle. The arc is ignored if it ends where it starts.
 struct RadiusArc {
   Plane plane = Plane::xy;
   Turn turn = Turn::clockwise;
@@ -103,20 +103,20 @@ struct Rotation {
   bool operator==(const Rotation&) const = default;
 };
 
-/// MPG. A ratio of 0 ends following.
+/// MPG. A ratio of 0 ends the following.
 struct WheelRatios {
   AxisValues lu_per_count;
   bool operator==(const WheelRatios&) const = default;
 };
 
-/// PJG, MJG: the requests of all lines of one scan.
+/// PJG, MJG: the requests of all lines in a scan.
 struct Jogs {
   AxisSet positive = 0;
   AxisSet negative = 0;
   bool operator==(const Jogs&) const = default;
 };
 
-/// For each axis, the step of the line that requests the jog.
+/// For each axis, the step number of the line that requests the jog.
 using JogSteps = std::array<int, kAxisCount>;
 
 /// PSET uses work coordinates, MSET machine coordinates.

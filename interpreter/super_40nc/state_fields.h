@@ -1,4 +1,4 @@
-// The state fields of running programs (base/state/fields.h), in the order of the bytes.
+// The state fields of running programs (base/state/fields.h), in the order of the saved bytes.
 #pragma once
 
 #include <cstddef>
@@ -62,7 +62,7 @@ struct StateOf<interpreter::super_40nc::StepState> {
                                            field<&Value::rpm>(),
                                            field<&Value::waits_for_drive>()};
   static constexpr std::size_t apart = 1;  // owns_pointer, which is always false between lines
-  /// Accepts any step: a program stops at a step where no instruction begins.
+  /// Accepts any step, because a program stops at a step where no instruction begins.
   static void check(const Value& state);
 };
 

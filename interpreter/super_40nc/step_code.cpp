@@ -43,7 +43,7 @@ void StepCode::find_labels(const std::set<std::int32_t>& others) {
 }
 
 void StepCode::find_blocks() {
-  std::vector<std::size_t> open;  // IF, or its ELSE
+  std::vector<std::size_t> open;  // each open IF, or its ELSE
   for (std::size_t i = 0; i < program_.lines.size(); ++i) {
     const Op op = program_.lines[i].op;
     if (op == Op::if_) open.push_back(i);

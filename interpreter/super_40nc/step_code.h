@@ -13,12 +13,12 @@ namespace understudy::interpreter::super_40nc {
 class StepCode {
  public:
   StepCode() = default;
-  /// Labels in `others` belong to other areas: jumps to them do not find a target.
+  /// The labels in `others` belong to other areas, so jumps to them have no target.
   explicit StepCode(const AreaProgram& program, const std::set<std::int32_t>& others = {});
 
   bool is_empty() const { return program_.lines.empty(); }
   const Instruction& line(int number) const { return program_.lines[static_cast<std::size_t>(number)]; }
-  /// Returns the line that begins at a step, counted from the beginning of the area, or -1 if none begins
+  /// Returns the line that begins at a step, counted from the beginning of the area, or -1 if no line begins
   /// there.
   int line_at(int step) const {
     const bool is_present = step >= 0 && step < static_cast<int>(lines_.size());

@@ -22,7 +22,7 @@
 
 namespace understudy::interpreter::super_40nc {
 
-/// Tells an observer that the line begins. A line that waits has begun already.
+/// Notifies the observer that the line begins, unless the line was already waiting.
 void StepPrograms::begin_line(Area area) {
   const StepState& program = state(area);
   const bool waits = program.phase == Phase::waiting || program.left_ms > 0;
@@ -79,7 +79,7 @@ StepPrograms::Slice StepPrograms::carry_out(Area area, const Instruction& line) 
   } else if (line.op == Op::tmr) {
     return wait_for_time(area, line);
   }
-  return advance(area, line);  // LAB, ENDI, NOP; CJ, CJN and IF that do not jump
+  return advance(area, line);  // LAB, ENDI, NOP, and CJ, CJN and IF that do not jump
 }
 
 /// Advances to the next line, unless the line has stopped its program or moved the pointer.
@@ -165,14 +165,14 @@ StepPrograms::Slice StepPrograms::wait(Area area, const Instruction& line, bool 
   return Slice::is_over;
 }
 
-/// Returns true if the line waits for a time in a register that is read in each tick.
+/// Returns true if the waiting time is in a register, which is read in each tick.
 bool StepPrograms::follows_register(Area area) const {
   const int line = code(area).line_at(state(area).step);
   return options_.chose(option("tmr_of_d", "compared_in_each_scan")) && line >= 0 &&
          code(area).line(line).fields[0].letter == Letter::d;
 }
 
-/// Reads the time once, and waits that many ticks after the tick in which the line was reached.
+/// Reads the time once, and waits for that many ticks after the tick in which the line was reached.
 StepPrograms::Slice StepPrograms::wait_for_time(Area area, const Instruction& line) {
   StepState& program = state(area);
   if (program.left_ms > 0) {
@@ -213,7 +213,7 @@ StepPrograms::Slice StepPrograms::read_contact(Area area, const Instruction& lin
   return advance(area, line);
 }
 
-/// Returns true if the next line belongs to the contacts before it, which are all read at once.
+/// Returns true if the next line belongs to the contacts before it, which are all read together.
 bool StepPrograms::is_in_group(Area area) const {
   const int line = code(area).line_at(state(area).step);
   if (state(area).phase != Phase::executing || line < 0) return false;
@@ -221,7 +221,7 @@ bool StepPrograms::is_in_group(Area area) const {
   return (is_contact(op) && !begins_block(op)) || joins_blocks(op) || reads_group(op);
 }
 
-/// STP, STR: in every program their fields are X, Y, Z, U. If no field is set, they mean C.
+/// STP, STR: the fields are X, Y, Z, U in every program. If no field is set, the instruction applies to C.
 StepPrograms::Slice StepPrograms::control(Area area, const Instruction& line) {
   const AxisValues values = axis_values(line, access_);
   const AxisSet axes = chosen_axes(values);

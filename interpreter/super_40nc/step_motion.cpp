@@ -26,7 +26,7 @@ Plane StepPrograms::plane() const {
   return static_cast<Plane>(std::clamp(machine_.special_register(named::kPlane), 0, 2));
 }
 
-/// Executes instructions that do not move anything themselves.
+/// Executes instructions that do not themselves move anything.
 StepPrograms::Slice StepPrograms::set_mode(Area area, const Instruction& line) {
   StepState& program = state(area);
   if (has(row_of(line.op).void_in, area)) {
@@ -56,7 +56,7 @@ StepPrograms::Slice StepPrograms::set_mode(Area area, const Instruction& line) {
   return advance(area, line);
 }
 
-/// In an axis program, only the first field counts, and it means the program's own axis.
+/// In an axis program, only the first field counts, and it refers to the program's own axis.
 AxisValues StepPrograms::values_of(Area area, const Instruction& line) const {
   if (area == Area::c) return axis_values(line, access_);
   AxisValues values;
@@ -85,8 +85,8 @@ bool StepPrograms::drop_forbidden_axes(Area area, AxisValues& values) {
   return false;
 }
 
-/// D9005: the program does not wait for a LIN or an arc that is followed by another one, so the axes do not
-/// stop at the corner.
+/// D9005: the program does not wait for a LIN or an arc if another one follows, so the axes do not stop at
+/// the corner.
 bool StepPrograms::goes_on_by_path(Area area, const Instruction& line) const {
   const auto is_path = [](Op op) { return op >= Op::lin && op <= Op::ccwr; };
   if (!options_.chose(option("continuous_path", "corners_are_run_through")) || !is_path(line.op) ||
@@ -198,7 +198,7 @@ StepPrograms::Slice StepPrograms::begin_arc(Area area, const Instruction& line) 
     const std::array<std::int32_t, 2> centre{second[0].value_or(0), second[1].value_or(0)};
     return begin_motion(area, line, CentreArc{where, turn, first, centre, program.targets, feed()}, true);
   }
-  const std::int32_t radius = second[0].value_or(0);  // is set, or the line would not have been loaded
+  const std::int32_t radius = second[0].value_or(0);  // is set, because the line would not load otherwise
   return begin_motion(area, line, RadiusArc{where, turn, first, radius, program.targets, feed()}, true);
 }
 

@@ -28,14 +28,14 @@ void StepPrograms::fail(Area area, Code code) {
 
 void StepPrograms::take(Event event, Area area) {
   const Reaction reaction = reaction_of(event, state(area).phase);
-  // A start cancels a pause that would begin when the motion is over.
+  // A start cancels a pause that was to begin at the end of the motion.
   const bool runs_on = event == Event::start && reaction == Reaction::nothing;
   if (runs_on && !machine_.is_held_in_reset(area)) set_contact(area, true);
   switch (reaction) {
     case Reaction::nothing:
     case Reaction::pause_later:
     case Reaction::motions_wait:
-    case Reaction::rest_waits: break;  // checked when their time comes
+    case Reaction::rest_waits: break;  // checked when the motion is to continue
     case Reaction::fresh_start:
     case Reaction::next_or_wait:
     case Reaction::resume: begin(area, reaction); break;
@@ -121,7 +121,7 @@ void StepPrograms::load_modes(Area area) {
   machine_.set_special_register(named::kPlane, machine_.parameter_in_force(named::kDefaultPlane));
 }
 
-/// Resets the state as at power-up, except for the modes and speeds.
+/// Resets the state as at power-up, but keeps the modes and speeds.
 void StepPrograms::clear(Area area) {
   StepState& program = state(area);
   StepState cleared;
@@ -169,7 +169,7 @@ void StepPrograms::freeze(Area area) {
   set_contact(area, false);
 }
 
-/// C continues at the same step; a wait for the same condition continues.
+/// C continues at the same step. A wait for the same condition continues.
 void StepPrograms::change_file(Area area) {
   StepState& program = state(area);
   if (program.phase != Phase::waiting || program.waits_to_resume) return;
@@ -178,7 +178,7 @@ void StepPrograms::change_file(Area area) {
   if (line < 0 || code(area).line(line).op != Op::tmr) program.left_ms = 0;
 }
 
-/// Moves the pointer of a running program: after its motion, or at once.
+/// Moves the pointer of a running program, either after its motion or at once.
 void StepPrograms::move_pointer(StepState& program, int step) {
   program.owns_pointer = false;
   if (program.phase == Phase::moving || program.phase == Phase::homing) {
@@ -249,7 +249,7 @@ void StepPrograms::run_slice(Area area) {
   }
 }
 
-/// Returns true if an instruction begins at the program's step; otherwise the program is over.
+/// Returns true if an instruction begins at the program's step; otherwise, the program ends.
 bool StepPrograms::finds_line(Area area) {
   StepState& program = state(area);
   if (code(area).line_at(program.step) >= 0) return true;

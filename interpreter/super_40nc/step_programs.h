@@ -1,5 +1,5 @@
-// The five step programs of a SUPER-40NC at run time. The state of each is a plain value; events change it
-// according to the table in events.h, and one slice in each tick advances it over its lines. (Manual,
+// The five step programs of a SUPER-40NC at run time. The state of each program is a plain value. Events
+// change it according to the table in events.h, and one slice per tick advances it line by line. (Manual,
 // 軟體架構, STR 指令, M8000.)
 #pragma once
 
@@ -31,14 +31,15 @@ struct StepState {
   bool machine_holds = false;        // the machine holds motions, until resume_motions()
   bool waits_to_resume = false;      // because of M8004
   int step = 0;                      // the next or current step, counted from the beginning of its area
-  int next_step = 0;                 // step after a motion
-  std::int64_t left_ms = 0;          // time left of TMR; 0: it has not begun
-  std::int32_t wait_ms = 0;          // the last time that TMR has read, if it reads repeatedly
+  int next_step = 0;                 // the step after a motion
+  std::int64_t left_ms = 0;          // remaining time of TMR; 0: it has not begun
+  std::int32_t wait_ms = 0;          // the time that TMR read last, if it reads repeatedly
   std::vector<Call> calls = {};
   std::uint64_t blocks = 0;  // result of the last contacts
-  // Not state: a line is running, and nothing else has moved its program's pointer.
+  // Not part of the state: a line is being executed, and only this line may have moved the program's pointer.
   bool owns_pointer = false;
-  // Modal values: loaded at a fresh start, kept at any other start. F and the plane are D8006 and D8007.
+  // Modal values: initialized at a fresh start and kept at any other start. F and the plane are D8006 and
+  // D8007.
   bool has_modes = false;
   Targets targets = Targets::absolute;
   std::array<std::int32_t, kAxisCount> rpm{};
@@ -54,36 +55,37 @@ struct StepStates {
 
 using StepCodes = std::array<StepCode, kStepProgramCount>;
 
-/// Make an object for each tick or event, because it only refers to its arguments.
+/// Create an object for each tick or event, because it only refers to its arguments.
 class StepPrograms : public StepControl {
  public:
   StepPrograms(StepStates& states, const StepCodes& codes, Machine& machine, const Options& options)
       : states_(states), codes_(codes), access_(machine), machine_(machine), options_(options) {}
 
   /// Handles an event from outside: start, contact_off, hold, stop, broken, file_changed (C), plc_stop,
-  /// plc_run. Call it with reset and emergency before the slices of each tick in which they are ON.
+  /// plc_run. Call it with `reset` and `emergency` before the slices of each tick in which they are ON.
   void take(Event event, Area area);
   void start(Area area) override;
   void stop(Area area) override { take(Event::stop, area); }
-  /// Unloads a program before another one replaces it; the machine has stopped its motions.
+  /// Unloads a program before another one replaces it. The machine has already stopped its motions.
   void unload(Area area) { forget(area); }
 
-  /// Run the slice of a tick of one program, or of all in the order of the areas. Their contacts (M8000,
-  /// M8x00) are checked first: a contact that is ON starts a program that does not run; one that is OFF
-  /// pauses it.
+  /// These run the slice of a tick, for one program or for all programs in the order of the areas. They first
+  /// check the program's contact (M8000, M8x00): a contact that is ON starts a program that is not running; a
+  /// contact that is OFF pauses it.
   void run_slice(Area area);
   void run_slices();
 
   /// Returns D8000 or D8x00.
   int step(Area area) const { return state(area).step; }
-  /// Writes D8000 or D8x00. The write is ignored while the program runs; otherwise it drops held motion.
+  /// Writes D8000 or D8x00. The write is ignored while the program is running; otherwise, it drops held
+  /// motion.
   void set_step(Area area, int step);
   /// Returns M8022.
   bool shows_pausing() const;
 
-  /// Returns how many ticks a slice would do nothing but count, if no contact, register or axis changes.
+  /// Returns for how many ticks a slice would do nothing but count, if no contact, register or axis changes.
   std::int64_t quiet_ms(Area area) const;
-  /// Runs `ticks` ticks at once, at most quiet_ms().
+  /// Runs several ticks at once, at most quiet_ms().
   void fast_forward(Area area, std::int64_t ticks);
   /// Returns the contact that WAT or WTN waits for, or unset.
   Operand awaited(Area area) const;
@@ -101,7 +103,7 @@ class StepPrograms : public StepControl {
   bool is_single_step(Area area) const {
     return machine_.special_contact(row_of(area).run_contact - 8000 + named::kSingleStep);
   }
-  /// Returns true under M8002, or under M8x02 of the axis: lines after the one that switched it ON are not
+  /// Returns true while M8002 or the axis's M8x02 is ON: the lines after the line that switched it ON are not
   /// executed.
   bool is_stopped_short(Area area) const {
     const int axis = axis_of(area);
@@ -112,7 +114,7 @@ class StepPrograms : public StepControl {
   void report(Area area, Code code);
   void fail(Area area, Code code);
 
-  // step_programs.cpp
+  // in step_programs.cpp
   void begin(Area area, Reaction how);
   void load_modes(Area area);
   void clear(Area area);
@@ -125,8 +127,8 @@ class StepPrograms : public StepControl {
   void end_of_motion(Area area);
   bool finds_line(Area area);
 
-  // step_flow.cpp
-  /// `line` is a copy: the line may replace its own program with another one (D9001).
+  // in step_flow.cpp
+  /// `line` is a copy, because the line may replace its own program (D9001).
   Slice execute(Area area, Instruction line);
   void begin_line(Area area);
   bool decide(Area area, bool outcome);
@@ -145,7 +147,7 @@ class StepPrograms : public StepControl {
   bool is_in_group(Area area) const;
   bool follows_register(Area area) const;
 
-  // step_motion.cpp
+  // in step_motion.cpp
   Slice set_mode(Area area, const Instruction& line);
   Slice move(Area area, const Instruction& line);
   Slice begin_arc(Area area, const Instruction& line);
@@ -162,7 +164,7 @@ class StepPrograms : public StepControl {
   Access access_;
   Machine& machine_;
   const Options& options_;
-  int watched_line_ = -1;  // watched by an observer; -1: none, or the line has begun before
+  int watched_line_ = -1;  // the line that an observer was notified of; -1: none, or the line began earlier
 };
 
 }  // namespace understudy::interpreter::super_40nc

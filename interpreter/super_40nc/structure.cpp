@@ -100,7 +100,7 @@ class Structure {
     return options_.chose(option("cj_without_group", "takes_the_last_result"));
   }
 
-  /// In step programs, contacts belong to the jump after them.
+  /// In step programs, contacts belong to the jump that follows them.
   void check_group(Op op) {
     if (is_loose_allowed()) return;
     const bool continues = is_contact(before_) || joins_blocks(before_) || reads_group(before_);
@@ -157,7 +157,7 @@ class Structure {
       if (labels_.contains(label)) continue;
       if (options_.chose(option("label_scope", "the_first_area_has_it")) &&
           !options_.chose(option("missing_label", "refused_at_load")))
-        continue;  // another area may have it
+        continue;  // the label may be in another area
       faults_.push_back({line, Code::label_missing, "names a label that the area does not have",
                          "LAB K" + std::to_string(label), -1,
                          options_.chose(option("missing_label", "refused_at_load")) ? Fault::Weight::error
@@ -190,15 +190,15 @@ class Structure {
   const Options& options_;
   std::vector<Fault> faults_;
   int line_ = 0;
-  Op before_ = Op::end;  // the last line except for NOP
-  int blocks_ = 0;       // number begun in the area so far
-  int pending_ = 0;      // number begun since the result was last read
+  Op before_ = Op::end;  // the last line, ignoring NOP
+  int blocks_ = 0;       // how many have begun in the area so far
+  int pending_ = 0;      // how many have begun since the result was last read
   int branches_ = 0;
   bool has_end_ = false;
   bool is_full_ = false;
   std::vector<OpenIf> ifs_;
   std::map<std::int32_t, int> labels_;
-  std::vector<std::pair<int, std::int32_t>> jumps_;  // lines, and the labels that they name
+  std::vector<std::pair<int, std::int32_t>> jumps_;  // lines, and the labels to which they refer
   std::map<std::pair<int, std::int32_t>, int> coils_;
 };
 

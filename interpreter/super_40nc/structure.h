@@ -1,4 +1,4 @@
-// Checks an area's lines as a whole: blocks and branches, IF with ELSE and ENDI, labels, END, and the
+// Checks the lines of an area as a whole: blocks and branches, IF with ELSE and ENDI, labels, END, and the
 // available memory.
 #pragma once
 
@@ -17,7 +17,7 @@ struct Fault {
   Code code = Code::none;
   std::string what;
   std::string expected;
-  int other_line = -1;  // of a duplicate label
+  int other_line = -1;  // for a duplicate label
   enum class Weight : std::uint8_t { error, warning, note };
   Weight weight = Weight::error;
 };
@@ -25,13 +25,13 @@ struct Fault {
 /// Returns the faults in the order of the lines.
 std::vector<Fault> faults_of(const AreaProgram& program, Area area, const Options& options);
 
-/// Classify instructions: those that begin a block, contacts of any kind, and joins of blocks.
+/// These classify instructions: those that begin a block, contacts of any kind, and those that join blocks.
 constexpr bool begins_block(Op op) {
   return (op >= Op::ld && op <= Op::ldf) || (op >= Op::ld_equal && op <= Op::ld_ge);
 }
 constexpr bool is_contact(Op op) { return op <= Op::anf || (op >= Op::ld_equal && op <= Op::or_ge); }
 constexpr bool joins_blocks(Op op) { return op == Op::anb || op == Op::orb; }
-/// Instructions that decide: contacts, jumps and IF by their condition, and waits for a contact.
+/// Instructions that make a decision: contacts, jumps and IF by their condition, and waits for a contact.
 constexpr bool decides(Op op) {
   return is_contact(op) || op == Op::cj || op == Op::cjn || op == Op::if_ || op == Op::wat || op == Op::wtn;
 }

@@ -58,7 +58,7 @@ std::uint16_t address_of(const RegisterRow& row, int index) {
   return static_cast<std::uint16_t>(row.address + index * row.stride);
 }
 
-/// Returns the English name of a section, or the section itself if the manual's name is English already.
+/// Returns the English name of a section, or the section itself if its name in the manual is already English.
 std::string_view section_in_english(const Model& model, std::string_view section) {
   for (const SectionRow& row : model.sections) {
     if (row.name == section) return row.in_english;
@@ -98,14 +98,14 @@ std::string fields_of(const RegisterRow& row) {
   return text;
 }
 
-/// Returns the order of a register's bytes on the line: "abcd" has the high word first.
+/// Returns the byte order of a register on the line: "abcd" has the high word first.
 std::string_view order_text(const RegisterRow& row, const MapPolicy& policy) {
   const bool low_first = row.swaps_words != policy.low_word_first;
   if (row.swaps_bytes) return low_first ? "dcba" : "badc";
   return low_first ? "cdab" : "abcd";
 }
 
-/// Returns "1" if the register is persistent, else "0". In the table for people it returns "at once" if
+/// Returns "1" if the register is persistent, otherwise "0". In the table for people, returns "at once" if
 /// storing takes no time.
 std::string kept_text(const RegisterRow& row, bool for_people) {
   if (for_people && row.needs_no_time) return "at once";
@@ -120,8 +120,8 @@ bool any_row(const Model& model, Holds holds) {
 
 bool has_meaning(const RegisterRow& row) { return !row.meaning.in_english.empty() || !row.meanings.empty(); }
 
-/// Returns true if the sheets of registers and parameters give the meaning of each row. In CSV, the columns
-/// of registers are those that `import` reads.
+/// Returns true if the sheets of registers and parameters contain the meaning of each row. In CSV, the
+/// columns of registers are those that `import` reads.
 bool shows_meanings(const Model& model, SheetFormat format) {
   return format != SheetFormat::csv && any_row(model, has_meaning);
 }
@@ -180,7 +180,7 @@ std::string number_of(const ParameterRow& row, int index) {
   return std::string(row.letter) + std::to_string(row.first + (row.of_each_axis ? 0 : index));
 }
 
-/// Lists the parameters. If they are registers, the register table has their other properties.
+/// Lists the parameters. If they are registers, their other properties are in the register table.
 Sheet parameters(const Model& model, SheetFormat format) {
   const bool has_named = !model.named_parameters.empty();
   const bool has_meanings = shows_meanings(model, format);
@@ -269,10 +269,10 @@ Sheet commands(const Model& model, SheetFormat format) {
   return sheet;
 }
 
-/// The folder of the models' fidelity pages. The proofs of their choices are below it.
+/// The folder of the models' fidelity pages. The proofs of the choices are in subfolders.
 constexpr std::string_view kFidelityFolder = "docs/fidelity/";
 
-/// Returns true if one of the sections is this one or contains it: "7.4" covers "7.4" and "7.4.12".
+/// Returns true if one of the sections equals or contains this one: "7.4" covers "7.4" and "7.4.12".
 bool covers(std::string_view sections, std::string_view section) {
   while (true) {
     const std::size_t bar = sections.find('|');
@@ -329,7 +329,8 @@ Sheet ports(const Model& model) {
   return sheet;
 }
 
-/// Lists the kinds of text blocks that a device keeps. Makes a device, because only a device has this list.
+/// Lists the kinds of text blocks that a device stores. Creates a device, because only devices have this
+/// list.
 Sheet blocks(const Model& model) {
   Sheet sheet{.columns = {"kind", "most", "longest"}, .rows = {}};
   const std::unique_ptr<Device> device = make_device(model, DeviceSettings{});

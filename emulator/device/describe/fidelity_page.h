@@ -1,4 +1,4 @@
-// Makes docs/fidelity/MODEL.md, which says how faithful a model is, from the model's tables.
+// Generates docs/fidelity/MODEL.md, which describes how faithful a model is, from the model's tables.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace understudy::emulator {
 
-/// Returns the page as Markdown: the choices, then what is not modelled.
+/// Returns the page as Markdown: first the choices, then what is not modelled.
 std::string fidelity_page(const Model& model);
 
 }  // namespace understudy::emulator

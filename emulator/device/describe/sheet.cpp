@@ -15,8 +15,8 @@ namespace understudy::emulator {
 
 namespace {
 
-/// Returns the width in columns of a terminal: a code point counts as one, a wide one (the manual's Chinese)
-/// as two.
+/// Returns the width in terminal columns: a code point counts as one column, a wide code point (Chinese) as
+/// two.
 std::size_t display_width(std::string_view text) {
   std::size_t width = 0;
   for (std::size_t i = 0; i < text.size(); ++i) {

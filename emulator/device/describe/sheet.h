@@ -1,4 +1,4 @@
-// A sheet has columns and rows of text, and prints in the four formats of `describe`.
+// A sheet consists of columns and rows of text, and can be printed in the four formats of `describe`.
 #pragma once
 
 #include <optional>
@@ -16,8 +16,8 @@ struct Sheet {
 enum class SheetFormat { table, csv, json, markdown };
 std::optional<SheetFormat> parse_sheet_format(std::string_view name);
 
-/// Returns the sheet as text with a final line end. JSON is an array of objects, one for each row; a column
-/// of decimal numbers holds numbers there, and null for an empty cell.
+/// Returns the sheet as text with a final line ending. In JSON, it is an array with one object per row. If a
+/// column contains decimal numbers, its values are numbers, or null for empty cells.
 std::string format_sheet(const Sheet& sheet, SheetFormat format);
 
 }  // namespace understudy::emulator

@@ -115,7 +115,7 @@ std::string thing_model(const Model& model) {
     for (int index = 0; index < row.count; ++index) {
       const std::string name = RegisterMap::name_of(row, index);
       OrderedJson property = property_of(row, index, model.registers->policy());
-      // Names differ within a table only, but keys differ within a Thing.
+      // Names are unique only within a table, but keys must be unique within a Thing.
       const bool is_free = taken.insert(name).second;
       if (!is_free) property["understudy:name"] = name;
       properties.push_back(

@@ -7,7 +7,7 @@
 
 namespace understudy::emulator {
 
-/// Returns JSON, with a final line end. Its placeholders are HOST, PORT and UNIT. Without registers the model
+/// Returns JSON with a final line ending. Its placeholders are HOST, PORT and UNIT. A model without registers
 /// has no properties.
 std::string thing_model(const Model& model);
 

@@ -38,7 +38,7 @@ void Eeprom::write(std::size_t slot, std::uint32_t bits, Tick takes, Tick now, b
   if (slots_[slot] == Slot::at_once) return keep(slot, bits);
   if (slots_[slot] != Slot::rests) return;
   const bool is_being_written = !jobs_.empty() && jobs_.front().slot == slot;
-  if (is_being_written && now < done_at_ - jobs_.front().takes) {  // it has not begun yet
+  if (is_being_written && now < done_at_ - jobs_.front().takes) {  // the write has not begun yet
     writing_ = bits;
     return;
   }
@@ -66,7 +66,8 @@ void Eeprom::step(Tick tick, std::span<const std::uint32_t> image) {
     const Job done = jobs_.front();
     jobs_.erase(jobs_.begin());
     if (done.slot == kEverything) {
-      // Values written since the rewrite began are not stored here: they are still waiting and can be lost.
+      // Values written since the rewrite began are not stored here, because they are still waiting and can be
+      // lost.
       keep_all(rewriting_, false);
       rewriting_.clear();
     } else {
@@ -111,8 +112,8 @@ void Eeprom::check_restored(const Eeprom& earlier) const {
   require_state(
       content_.size() == earlier.content_.size() && std::ranges::equal(slots_, earlier.slots_, is_alike),
       "it holds different registers");
-  // A waiting register has exactly one job that has not begun. A job that writes everything comes before all
-  // others.
+  // A waiting register has exactly one job that has not begun. A job that writes everything precedes all
+  // other jobs.
   std::vector<Slot> left = slots_;
   for (std::size_t i = 0; i < jobs_.size(); ++i) {
     const Job& job = jobs_[i];
@@ -121,7 +122,7 @@ void Eeprom::check_restored(const Eeprom& earlier) const {
       require_state(i == 0 && rewriting_.size() == content_.size(),
                     "the memory cannot be rewriting its whole content");
     } else {
-      // The first job is in progress: the register rests, or waits for its next value.
+      // The first job is in progress, so its register is either at rest or waiting for its next value.
       const bool is_expected = job.slot < left.size() &&
                                (left[job.slot] == Slot::waits || (i == 0 && left[job.slot] == Slot::rests));
       require_state(is_expected, "the memory's writes are out of order");

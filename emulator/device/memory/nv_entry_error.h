@@ -1,5 +1,4 @@
-// Reports one wrong entry of an NV image. To find all wrong entries, remove the reported one and check
-// again.
+// Reports a wrong entry of an NV image. To find all wrong entries, remove the reported one and check again.
 #pragma once
 
 #include <cstddef>
@@ -21,12 +20,12 @@ struct NvEntryError : NvError {
         name(std::move(name_of_it)),
         diagnostic(std::move(what_is_wrong)) {}
   List list;
-  std::string kind;        // the kind, if the entry is a block
-  std::string name;        // the name of the entry; for blocks, empty means all of this kind
-  std::string diagnostic;  // for messages that already name the entry
+  std::string kind;        // if the entry is a block, its kind
+  std::string name;        // the name of the entry; for blocks, an empty name means all blocks of this kind
+  std::string diagnostic;  // for messages that already contain the entry's name
 };
 
-/// Makes the error for a refused value. Its text is "registers: " or "reals: ", followed by the reason.
+/// Creates the error for a refused value. Its text is "registers: " or "reals: ", followed by the reason.
 NvEntryError refused_value(NvEntryError::List list, const std::string& name, const std::string& why);
 
 /// Removes the refused entry. Returns true if the image contained it.

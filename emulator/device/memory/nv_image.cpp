@@ -1,4 +1,4 @@
-// Reads and writes the JSON of NV images. No other file knows that format.
+// Reads and writes the JSON of NV images. Only this file depends on the format.
 #include "emulator/device/memory/nv_image.h"
 
 #include <algorithm>
@@ -40,13 +40,14 @@ std::string text_of(const Json& object, const char* key) {
 
 std::string line_text(std::size_t line) { return line == 0 ? "" : "line " + std::to_string(line) + ": "; }
 
-/// Returns the line of a byte in the text, counted as the parser counts bytes.
+/// Returns the line that contains a byte of the text. The byte is counted as the parser counts bytes.
 std::size_t line_of(const std::string& text, std::size_t byte) {
   const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(byte, text.size()));
   return 1 + static_cast<std::size_t>(std::count(text.begin(), end, '\n'));
 }
 
-/// An iterator that reports the parser's position, which is right after a key when the parser has read it.
+/// An iterator that reports the parser's position, which is directly after a key when the parser has read the
+/// key.
 struct JsonPlace {
   using iterator_category = std::input_iterator_tag;
   using value_type = char;
@@ -64,7 +65,7 @@ struct JsonPlace {
   bool operator!=(const JsonPlace& other) const { return at != other.at; }
 };
 
-/// Counts the lines up to given positions of the text, which must be in ascending order.
+/// Counts the lines before positions in the text, which must be in ascending order.
 class LineCount {
  public:
   explicit LineCount(const std::string& text) : counted_to_(text.data()) {}
@@ -82,7 +83,7 @@ class LineCount {
 struct BlockPlace {
   std::string kind;
   std::string name;
-  std::size_t line = 0;  // the line in the file
+  std::size_t line = 0;  // the line number in the file
 };
 
 /// Returns "blocks: files: 'A': ".
@@ -94,7 +95,7 @@ std::string text_of(const BlockPlace& place) {
 
 struct Parsed {
   Json file;
-  // The names in the order of the text, which `file` does not preserve.
+  // The names in their order in the text, which `file` does not preserve.
   std::vector<std::string> registers{};
   std::vector<std::string> reals{};
   std::vector<BlockPlace> blocks{};  // kinds (without a name) and entries
@@ -126,7 +127,7 @@ Parsed parse_strictly(const std::string& text) {
     if (depth == 2 && outermost == "reals") parsed.reals.push_back(key);
     if (outermost != "blocks" || depth < 2) return true;
     if (depth == 2) parsed.blocks.push_back({.kind = key, .name = {}, .line = lines.at(seen)});
-    // Without a kind, the block is in a list, which is refused later.
+    // A block without a kind is in a list, which is refused later.
     if (depth == 3 && !parsed.blocks.empty()) {
       parsed.blocks.push_back({.kind = parsed.blocks.back().kind, .name = key, .line = lines.at(seen)});
     }
@@ -137,7 +138,7 @@ Parsed parse_strictly(const std::string& text) {
     parsed.file = Json::parse(JsonPlace{begin, &seen}, JsonPlace{begin + text.size(), &seen}, take);
     return parsed;
   } catch (const Json::parse_error& error) {
-    // The message names the line that is wrong, not the line in which the block begins.
+    // The message contains the line of the mistake, not the line in which the block begins.
     const std::string block = end_of_block();
     const auto wrong = first_not_utf8(text);
     if (wrong && !block.empty()) {
@@ -160,7 +161,7 @@ void read_reals(const Json& reals, const std::vector<std::string>& names, NvImag
 }
 
 /// Returns a line as text, or as a list of bytes if it is not UTF-8: JSON must be UTF-8, but a display may
-/// use another encoding.
+/// use a different encoding.
 OrderedJson json_of_line(const std::string& line) {
   const std::string text = OrderedJson(line).dump(-1, ' ', false, OrderedJson::error_handler_t::ignore);
   if (OrderedJson::parse(text) == line) return line;
@@ -187,7 +188,7 @@ void read_program(const Json& program, NvImage& image) {
   }
 }
 
-/// Returns the lines of a block. The last one is empty if the text ends with a line end.
+/// Returns the lines of a block. The last line is empty if the text ends with a line ending.
 OrderedJson json_of_block(const std::string& text) {
   OrderedJson::array_t lines;
   for (std::size_t begin = 0; begin <= text.size();) {

@@ -15,23 +15,23 @@ namespace understudy::emulator {
 
 class PersistentMemory {
  public:
-  /// Convert the memory to and from the form in files. load_nv() requires that the power is off, and throws
-  /// NvError for an image that the device cannot hold.
+  /// These convert the memory to and from its form in files. load_nv() requires that the power is off, and
+  /// throws NvError for an image that the device cannot store.
   NvImage nv_image() const { return content_now()(); }
   void load_nv(const NvImage& image);
-  /// Captures the memory's content at this moment. The result can make the image later, in another thread,
-  /// even after the device has been destroyed. Capturing is quick (it copies numbers and shares texts);
-  /// making the image takes time.
+  /// Captures the present content of the memory. The returned function can create the image later, in another
+  /// thread, even after the device was destroyed. Capturing is fast (it copies numbers and shares texts),
+  /// whereas creating the image takes time.
   LateImage content_now() const;
 
-  /// Returns the named texts in the memory; null for most devices, which have none. Images include them
+  /// Returns the named texts in the memory, or null for most devices, which have none. Images include them
   /// automatically.
   virtual TextBlocks* text_blocks() { return nullptr; }
   virtual const TextBlocks* text_blocks() const { return nullptr; }
 
   /// Changes whenever the content that would survive a power failure may have changed.
   virtual std::uint64_t memory_revision() const = 0;
-  /// Stores all waiting writes at once, as if their time had passed.
+  /// Stores all waiting writes immediately, as if their time had passed.
   virtual void settle_memory() = 0;
 
  protected:
@@ -40,11 +40,11 @@ class PersistentMemory {
       : model_name_(model_name), firmware_(firmware) {}
   ~PersistentMemory() = default;
 
-  /// Returns a function that writes the present content, except text_blocks(), into an image that already has
-  /// model and firmware. The function refers to nothing in the device.
+  /// Returns a function that writes the present content, except text_blocks(), into an image that already
+  /// contains the model and the firmware. The function does not refer to the device.
   virtual std::function<void(NvImage&)> memory_writer() const = 0;
-  /// Reads an image while the power is off. Entries that the image does not name get the factory value.
-  /// Throws NvError for an image that the memory cannot hold; then nothing has changed.
+  /// Reads an image while the power is off. Entries that are missing from the image get their factory values.
+  /// Throws NvError for an image that the memory cannot store; in that case, nothing changes.
   virtual void read_memory(const NvImage& image) = 0;
 
  private:

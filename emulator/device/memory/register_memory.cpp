@@ -25,17 +25,17 @@ namespace {
 
 using List = NvEntryError::List;
 
-/// Returns true if a register may hold a value. The value may be out of range if the policy stores any value,
-/// or if half of a pair can be written alone. A real that is not finite passes too, because no image written
-/// by hand can contain one.
+/// Returns true if a register may contain a value. The value may be out of range if the policy stores any
+/// value, or if half of a pair can be written alone. Reals that are not finite pass, too, because an image
+/// written by hand cannot contain them.
 bool may_hold(const MapPolicy& policy, const RegisterRow& row, Value value) {
   const bool is_odd = row.type == Type::f32 && !std::isfinite(real_of(value));
   return is_odd || policy.out_of_range == MapPolicy::OutOfRange::stored ||
          (is_32_bit(row.type) && policy.halves != MapPolicy::Halves::come_whole) || is_in_range(row, value);
 }
 
-/// Returns true if a register can hold these bits: from a write, from the factory, or, if hosts cannot write
-/// it, from the device itself.
+/// Returns true if a register can contain these bits: from a write, from the factory, or from the device
+/// itself if hosts cannot write it.
 bool can_hold(const MapPolicy& policy, const RegisterRow& row, std::uint32_t bits) {
   const Value value = value_of(bits, row.type);
   const auto whole = static_cast<std::uint32_t>(value);
@@ -72,14 +72,15 @@ void check_restored_registers(const RegisterBank& bank, std::span<const std::uin
                               std::span<const std::uint32_t> content) {
   const auto slots = static_cast<std::size_t>(bank.map().slot_count());
   require_state(image.size() == slots && content.size() == slots, "the image has a different size");
-  // This is the model's own policy: a choice of the bench may restrict what hosts write, but not programs.
+  // This is the model's own policy: a choice in the bench may restrict what hosts write, but it does not
+  // restrict programs.
   const MapPolicy& policy = bank.map().policy();
   std::size_t slot = 0;
   for (const RegisterRow& row : bank.map().rows()) {
     if (row.is_view) continue;
     const bool is_persistent = bank.keeps(row);
     for (int i = 0; i < row.count; ++i, ++slot) {
-      // Without power the image is blank except for later writes, and a worn-out register may be 0.
+      // Without power, the image is blank except for later writes, and a worn-out register may be 0.
       const bool can_be = (image[slot] == 0 || can_hold(policy, row, image[slot])) &&
                           (!is_persistent || can_hold(policy, row, content[slot]));
       if (!can_be) throw StateError(bank.map().unique_name(row, i) + " holds a value that is not valid");

@@ -1,5 +1,5 @@
-// Named texts that a device stores at once, such as its files, recipes and macros. It is a value; copies
-// share the texts. The model's table lists the kinds, and what fits in them.
+// Named texts that a device stores immediately, such as files, recipes and macros. The class is a value,
+// whose copies share the texts. The model's table lists the kinds and their limits.
 #pragma once
 
 #include <cstddef>
@@ -15,12 +15,12 @@
 
 namespace understudy::emulator {
 
-/// A kind of block: a row of the model's table.
+/// A kind of block, which is a row of the model's table.
 struct BlockKind {
   std::string_view name;    // "files": a key of the image
   std::size_t max = 0;      // entries
   std::size_t longest = 0;  // bytes per entry
-  /// Returns why an entry cannot have that name, or an empty text if it can. Null: any name is allowed.
+  /// Returns why an entry cannot have this name, or an empty text if it can. Null: any name is allowed.
   std::string (*why_not_called)(const std::string& name) = nullptr;
   /// Returns what is wrong with a text, "line 3: ...", or an empty text. Null: any text is allowed.
   std::string (*why_not_text)(const std::string& text) = nullptr;
@@ -33,22 +33,22 @@ class TextBlocks {
 
   std::span<const BlockKind> kinds() const { return kinds_; }
   const NamedBlocks& all() const { return all_; }
-  /// Returns the present texts as an object that never changes. It is made once for each change.
+  /// Returns the present texts as an object that never changes. A new object is created after each change.
   std::shared_ptr<const NamedBlocks> shared() const;
   /// Returns null if there is no such text.
   const SharedText* find(std::string_view kind, std::string_view name) const;
 
-  /// Stores a text and returns "", or returns why it is refused; then nothing has changed. Storing the same
-  /// text again changes nothing.
+  /// Stores a text and returns "", or returns why it is refused; in that case, nothing changes. Storing the
+  /// same text again changes nothing.
   std::string put(std::string_view kind, const std::string& name, SharedText text);
-  /// Returns true if there was such a text.
+  /// Returns true if the text existed.
   bool erase(std::string_view kind, std::string_view name);
-  /// Throws NvError, "blocks: files: 'A': what is wrong", for blocks that do not fit, with the line of their
-  /// file if it is known.
+  /// Throws NvError, "blocks: files: 'A': what is wrong", for blocks that do not fit. The error includes the
+  /// line in the file if it is known.
   void check(const NamedBlocks& blocks, const BlockLines& lines = {}) const;
-  /// Replaces all texts. The caller has called check().
+  /// Replaces all texts. The caller must have called check().
   void replace(const NamedBlocks& blocks);
-  /// Grows with every change.
+  /// Increases with every change.
   std::uint64_t revision() const { return revision_; }
 
   bool operator==(const TextBlocks& other) const {
@@ -66,9 +66,9 @@ class TextBlocks {
   static std::string why_not(const BlockKind& kind, const std::string& name, const SharedText& text);
 
   std::uint64_t revision_ = 0;
-  NamedBlocks all_;  // kinds without entries are left out
+  NamedBlocks all_;  // kinds without entries are omitted
   std::span<const BlockKind> kinds_;
-  mutable std::shared_ptr<const NamedBlocks> shared_;  // `all_` at this revision, made on the first request
+  mutable std::shared_ptr<const NamedBlocks> shared_;  // `all_` at this revision, if requested
 };
 
 }  // namespace understudy::emulator

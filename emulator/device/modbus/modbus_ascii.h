@@ -5,7 +5,8 @@
 
 namespace understudy::emulator {
 
-/// Frames of hexadecimal digits. Such a model has RtuRules and the facet ModbusStation, too.
+/// Frames consist of hexadecimal digits. Models with this protocol also have RtuRules and the facet
+/// ModbusStation.
 inline constexpr Protocol kModbusAscii{"Modbus ASCII"};
 
 inline bool is_modbus_ascii(const Model& model) { return &model.line.protocol == &kModbusAscii; }

@@ -32,7 +32,7 @@ std::uint32_t with_word(std::uint32_t bits, Place::Part part, std::uint16_t word
   return bits;
 }
 
-/// A register that a request touches, and the value that the request gives it.
+/// A register that a request affects, and the value that the request writes to it.
 struct Change {
   Place place;
   std::uint32_t bits = 0;
@@ -69,7 +69,7 @@ struct Changes {
   std::size_t count = 0;
 };
 
-/// Calls `act` with room for the changes of this many words. Clearing the maximum every time would cost more
+/// Calls `act` with room for the changes of this many words. Always clearing the maximum would take longer
 /// than the rest of a program's write.
 template <typename Act>
 auto with_room_for(std::size_t words, Act act) {
@@ -88,14 +88,14 @@ auto with_room_for(std::size_t words, Act act) {
   return act(changes);
 }
 
-/// Extends the sign of a low half that was written alone, if that sets the whole value.
+/// If a low half is written alone and this sets the whole value, extends its sign.
 void extend_sign(Change& change) {
   if (!is_32_bit(change.place.row->type) || !change.low || change.high) return;
   change.bits = static_cast<std::uint32_t>(static_cast<std::int16_t>(change.bits & 0xFFFF));
   change.high = true;
 }
 
-/// Checks the value that a request gives to a register, and clamps it if the policy says so.
+/// Checks the value that a request writes to a register, and clamps it if the policy requires that.
 Objection judge(Change& change, const MapPolicy& policy) {
   if (policy.halves == MapPolicy::Halves::low_gives_the_sign) extend_sign(change);
   // Half of a value cannot be checked.
@@ -108,7 +108,7 @@ Objection judge(Change& change, const MapPolicy& policy) {
   return {};
 }
 
-/// Collects the changes to all registers that the request may write, and checks its addresses.
+/// Collects the changes to all registers that the request can write, and checks its addresses.
 Objection gather_addresses(const RegisterBank& bank, const RegisterRequest& request, Changes& changes) {
   const MapPolicy& policy = bank.map_policy();
   const bool low_first = bank.low_word_first();
@@ -146,8 +146,8 @@ Objection gather_addresses(const RegisterBank& bank, const RegisterRequest& requ
   return {};
 }
 
-/// Collects the changes; checks addresses first, then values. After a refusal, `changes` keeps only those
-/// that are still to be made.
+/// Collects the changes. Checks addresses first, then values. After a refusal, `changes` contains only those
+/// that must still be made.
 Objection gather(const RegisterBank& bank, const RegisterRequest& request, Changes& changes) {
   Objection refused = gather_addresses(bank, request, changes);
   if (!refused) refused = admission(bank, request, Checked::addresses);
@@ -165,7 +165,7 @@ Objection gather(const RegisterBank& bank, const RegisterRequest& request, Chang
   return refused;
 }
 
-/// Returns the window that a request begins in, or an empty place if there is none.
+/// Returns the window in which a request begins, or an empty place if there is none.
 Place window_at(const RegisterBank& bank, Table table, std::uint16_t first) {
   const Place place = bank.at(table, first);
   return place && place.row->message != nullptr ? place : Place{};
@@ -221,8 +221,8 @@ void take_effect(RegisterBank& bank, const Change& change) {
   if (!row.is_view) bank.register_written(row, static_cast<std::size_t>(change.place.slot));
 }
 
-/// Makes the changes in ascending order. Depending on the policy, it first stores all of them and then
-/// applies their effects, or does both for each register in turn.
+/// Makes the changes in ascending order. Depending on the policy, either stores all of them before applying
+/// their effects, or does both for each register in turn.
 void carry_out(RegisterBank& bank, Changes& changes) {
   std::span all = std::span(changes.all).first(changes.count);
   const auto diverted = std::remove_if(
@@ -240,7 +240,7 @@ void carry_out(RegisterBank& bank, Changes& changes) {
   bank.registers_written();
 }
 
-/// Returns the new value of the register, or of its half, when a value is written to the named part. Returns
+/// Returns the new value of the register, or of its half, after a value is written to the named part. Returns
 /// nothing if the value does not fit.
 std::optional<Value> merged(const RegisterBank& bank, const NamedPlace& named, Value value) {
   const Place& place = named.place;
@@ -250,10 +250,10 @@ std::optional<Value> merged(const RegisterBank& bank, const NamedPlace& named, V
     if (value < 0 || value > max) return std::nullopt;
     const Value whole = read_value(bank, place);
     value = (whole & ~(max << named.bit)) | value << named.bit;
-    // A write may set the sign bit like any other.
+    // A write can set the sign bit like any other bit.
     if (!half) value = value_of(static_cast<std::uint32_t>(value), place.row->type);
   }
-  // A value that does not fit the register's words cannot even be sent.
+  // A value that does not fit in the register's words cannot be sent at all.
   const auto [lowest, highest] = half ? limits_of(Type::u16) : limits_of(place.row->type);
   if (value < lowest || value > highest) return std::nullopt;
   return value;
@@ -313,7 +313,7 @@ Tick next_change(const RegisterBank& bank, const NamedPlace& named, Tick done) {
 
 double number_of(const NamedPlace& place, Value value) {
   if (!place.is_real()) return static_cast<double>(value);
-  // This returns 0.1 for the single nearest to it, so the value reads as the user wrote it.
+  // Returns 0.1 for the nearest single-precision number, so the value looks as the user wrote it.
   const double real = static_cast<double>(real_of(value));
   return parse_real(value_text(value, Type::f32)).value_or(real);
 }
@@ -324,7 +324,7 @@ std::optional<Value> value_of_number(const NamedPlace& place, double number) {
     if (std::isinf(real) && !std::isinf(number)) return std::nullopt;
     return value_of_real(real);
   }
-  constexpr double kMax = 1e15;  // larger doubles are all whole numbers, and fit in no register
+  constexpr double kMax = 1e15;  // larger doubles are all whole numbers, and do not fit in any register
   if (!(std::abs(number) <= kMax) || number != std::trunc(number)) return std::nullopt;
   return static_cast<Value>(number);
 }
@@ -356,7 +356,8 @@ Refusal write_prepared(RegisterBank& bank, const PreparedWrite& write) {
 }
 
 Refusal write_value(RegisterBank& bank, const NamedPlace& named, Value value) {
-  // This has the same result as looking up its words, but is faster: programs write like this all the time.
+  // The result is the same as when looking up the words, but this is faster, and programs write like this all
+  // the time.
   const Place& place = named.place;
   const RegisterRow& row = *place.row;
   if (row.access == Access::read || row.message != nullptr) return Refusal::no_register;

@@ -1,4 +1,4 @@
-// What a write or a command can do when it is sent to a real controller. Rows of registers and commands carry
+// What a write or a command may do when it is sent to a real controller. Rows of registers and commands have
 // these marks, and `run --on` and `probe` send only what the user has allowed.
 #pragma once
 
@@ -11,13 +11,13 @@ namespace understudy::emulator {
 /// A set of bits.
 enum class Hazards : std::uint8_t {
   reads = 0,             // nothing changes
-  settings = 1,          // values change that start nothing
-  memory = 2,            // something is stored that survives power-off
-  output = 4,            // an output may switch
-  motion = 8,            // an axis may move, or move differently from before
-  stops_answering = 16,  // the controller may no longer answer at this address, or at all
+  settings = 1,          // changes values, but starts nothing
+  memory = 2,            // stores something that survives power-off
+  output = 4,            // may switch an output
+  motion = 8,            // may move an axis, or change its motion
+  stops_answering = 16,  // may prevent the controller from answering at this address, or at all
   all = 31,
-  unmarked = 63,  // a row without a mark; counts as all
+  unmarked = 63,  // a row without a mark; counts as all of these
 };
 
 constexpr Hazards operator|(Hazards a, Hazards b) {
@@ -32,11 +32,11 @@ constexpr Hazards beyond(Hazards hazards, Hazards allowed) {
 }
 constexpr bool has(Hazards hazards, Hazards one) { return (hazards & one) != Hazards::reads; }
 
-/// What a line of text does to the entry of a program. Until that ends, every line is a part of the program,
+/// The effect of a text line on program entry. Until program entry ends, every line is part of the program,
 /// including queries and stops.
 enum class EditMark : std::uint8_t {
   none,
-  begins,           // all lines from here on, up to one that ends it
+  begins,           // all following lines, up to a line that ends the entry
   begins_one_line,  // the next line
   ends,
 };

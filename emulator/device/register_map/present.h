@@ -1,4 +1,5 @@
-// Code shared by reading and writing (access.h): a register's present content, and why it is not available.
+// Code that reading and writing share (access.h): the present content of a register, and why it is not
+// available.
 #pragma once
 
 #include <cstddef>
@@ -34,8 +35,8 @@ inline std::uint16_t word_of(std::uint32_t bits, Place::Part part) {
   return static_cast<std::uint16_t>(part == Place::Part::high ? bits >> 16 : bits);
 }
 
-/// Warns about an unmodelled register that the controller itself should set. Reading back a written value
-/// needs no warning.
+/// Warns about an unmodelled register that the controller itself should set. No warning is needed for reading
+/// back a written value.
 inline void mention_if_missed(const RegisterBank& bank, const Place& place) {
   if (!place.row->not_implemented.empty() && place.row->access == Access::read)
     bank.warn_not_implemented(*place.row);
@@ -45,7 +46,8 @@ inline Objection objection(Refusal refusal, Cause cause, std::size_t address) {
   return {refusal, cause, static_cast<std::uint16_t>(address)};
 }
 
-/// Converts the device's answer to a request into an objection, with the device's number for the reason.
+/// Converts the device's answer to a request into an objection that contains the device's number for the
+/// reason.
 inline Objection objection_of(const DeviceAnswer& answer, const RegisterRequest& request) {
   const auto because = [&](Cause cause) {
     return Objection{answer.refusal, cause, request.first, answer.reason};
@@ -70,7 +72,7 @@ inline bool swallows_writes_to_nothing(const RegisterBank& bank) {
   return bank.map_policy().unmapped == MapPolicy::Unmapped::reads_zero;
 }
 
-/// Returns true if a request that begins or ends with this word cuts its register in half.
+/// Returns true if a request that begins or ends with this word contains only half of the word's register.
 inline bool is_cut(const Place& place, bool is_first, bool is_last, bool low_word_first) {
   if (place.part == Place::Part::whole) return false;
   return is_second_word(place, low_word_first) ? is_first : is_last;

@@ -16,7 +16,7 @@ namespace understudy::emulator {
 
 namespace {
 
-/// Returns true if the policy lets a request read an address without a register.
+/// Returns true if the policy allows a request to read an address that has no register.
 bool may_read_hole(const RegisterBank& bank, Table table, std::size_t address) {
   switch (bank.map_policy().unmapped) {
     case MapPolicy::Unmapped::refused: return false;
@@ -27,7 +27,7 @@ bool may_read_hole(const RegisterBank& bank, Table table, std::size_t address) {
   return false;
 }
 
-/// Checks whether the word at an address can be read. Leaves `place` empty if it reads as zero.
+/// Checks whether the word at an address can be read. `place` stays empty if the word reads as zero.
 Objection readable(const RegisterBank& bank, Table table, std::size_t address, Place& place) {
   if (!place) {
     return may_read_hole(bank, table, address) ? Objection{}
@@ -41,7 +41,8 @@ Objection readable(const RegisterBank& bank, Table table, std::size_t address, P
   return {};
 }
 
-/// Returns how many registers from a place on belong to one row and read exactly what the image holds.
+/// Returns how many consecutive registers, beginning with a place, belong to the same row and can be read
+/// directly from the image.
 std::size_t stored_neighbours(const Place& place) {
   const RegisterRow& row = *place.row;
   if (row.is_view || row.swaps_bytes || row.reader != nullptr || !row.fields.empty() ||
@@ -60,7 +61,7 @@ bool is_whole_pair(const Place& place, bool low_first, std::size_t words_left) {
   return place.part != Place::Part::whole && !is_second_word(place, low_first) && words_left >= 2;
 }
 
-/// Packs the lowest bit of each word, from bit number `at` on, in whole bytes at once.
+/// Packs the lowest bit of each word into whole bytes, beginning with bit number `at`.
 void pack(std::span<const std::uint32_t> bits, std::size_t at, std::span<std::uint8_t> packed) {
   std::size_t i = 0;
   const auto one = [&] { packed[at / 8] |= static_cast<std::uint8_t>((bits[i++] & 1U) << at % 8); };
@@ -106,7 +107,7 @@ Objection read_request(const RegisterBank& bank, Table table, std::uint16_t firs
       continue;
     }
     const std::size_t rest = stored_neighbours(place);
-    if (rest > 1) {  // the following registers of its row
+    if (rest > 1) {  // the following registers of the same row
       const std::size_t count = std::min(rest, words.size() - i);
       const auto stored = image.subspan(static_cast<std::size_t>(place.slot), count);
       std::transform(stored.begin(), stored.end(), words.begin() + static_cast<std::ptrdiff_t>(i),

@@ -1,5 +1,5 @@
-// Reasons why a request for registers was not executed: coarse ones for the protocol's answer, and detailed
-// ones that a device may record.
+// Reasons why a request for registers was not executed: general reasons for the protocol's answer, and
+// detailed reasons that a device can record.
 #pragma once
 
 #include <cstddef>
@@ -7,26 +7,26 @@
 
 namespace understudy::emulator {
 
-/// The coarse reason. Each protocol translates it (Modbus: an exception code).
+/// The general reason, which each protocol translates (Modbus: an exception code).
 enum class Refusal : std::uint8_t {
   none,
-  no_register,  // nothing at that address, or half a register if that is not allowed, or a write to a
+  no_register,  // no register at that address, or half a register if that is not allowed, or a write to a
                 // read-only register
   bad_value,    // outside the register's range, or a message that the device does not accept
-  busy,         // the device cannot handle it now
-  failure,      // the device cannot do it
+  busy,         // the device cannot process it now
+  failure,      // the device failed to execute it
 };
 
 enum class Cause : std::uint8_t {
   none,
   unknown_function,
-  bad_count,    // none, or more than a request may have
+  bad_count,    // zero, or more than a request may have
   bad_length,   // the byte count or the frame's length does not match the count
-  no_register,  // a hole, or beyond the table
+  no_register,  // no register at the address, or beyond the table
   read_only,
   write_only,
   cut_pair,     // half of a 32-bit register
-  cut_message,  // a write to a window that does not start at its first word, or passes its end
+  cut_message,  // a write to a window that does not begin at its first word, or extends beyond its end
   out_of_range,
   bad_bit,      // a single bit written as neither 0x0000 nor 0xFF00
   bad_message,  // the window's reader refused the message
@@ -34,7 +34,7 @@ enum class Cause : std::uint8_t {
   failure,
 };
 
-/// The device's own answer to a request, with its number for the reason if it has one.
+/// The device's own answer to a request, with its number for the reason, if any.
 struct DeviceAnswer {
   constexpr DeviceAnswer(Refusal given, int number = 0)  // NOLINT(google-explicit-constructor): `return busy`
       : refusal(given), reason(static_cast<std::uint16_t>(number)) {}
@@ -60,7 +60,7 @@ struct RefusedRequest {
   std::uint16_t first = 0;  // 0 if the request has no address, or is too short
   std::size_t count = 0;    // 0 in the same cases
   int exception = 0;        // the exception code in the answer
-  Objection objection{};    // why
+  Objection objection{};    // the reason
 };
 
 }  // namespace understudy::emulator

@@ -43,7 +43,7 @@ constexpr std::array<std::pair<std::string_view, Table>, 4> kTables{{{"holding",
                                                                      {"input", Table::input},
                                                                      {"discrete", Table::discrete}}};
 
-/// Returns true if a read of the row needs nothing but its value, in every firmware.
+/// Returns true if reading the row returns its stored value, in every firmware.
 bool reads_plainly(const RegisterRow& row) {
   return row.since == 0 && row.not_implemented.empty() && row.fields.empty() && row.access != Access::write &&
          row.message == nullptr;
@@ -107,7 +107,7 @@ void RegisterMap::place_words(const RegisterRow& row, int row_number) {
   }
 }
 
-/// Fills the table from the end, so each entry knows how many equal ones follow.
+/// Fills the table from the end, so that each entry can count how many equal entries follow.
 void RegisterMap::find_bit_sources(TableIndex& table) const {
   using How = BitSource::How;
   table.bits.resize(static_cast<std::size_t>(table.end));
@@ -169,8 +169,8 @@ Place RegisterMap::at(Table table, std::uint16_t address, Firmware firmware, boo
 
 namespace {
 
-/// Returns the address that a name denotes: "0x1000". After the name of a table it may also be decimal:
-/// "coil.20".
+/// Returns the address in a name such as "0x1000". After the name of a table, the address can also be
+/// decimal: "coil.20".
 std::optional<std::uint16_t> address_of(std::string_view name, std::optional<Table> table) {
   std::uint16_t address = 0;
   const bool is_hexadecimal = name.starts_with("0x");
@@ -182,8 +182,8 @@ std::optional<std::uint16_t> address_of(std::string_view name, std::optional<Tab
   return address;
 }
 
-/// Returns the word at an address in the first table that has one, or an empty place. It uses the model's own
-/// order of words.
+/// Returns the word at an address in the first table that has a word there, or an empty place. It uses the
+/// model's own word order.
 Place word_at(const RegisterMap& map, std::optional<Table> only, std::uint16_t address, Firmware firmware) {
   for (const auto& [name, table] : kTables) {
     if (only && *only != table) continue;
@@ -204,13 +204,14 @@ InTable without_table(std::string_view name) {
   return {std::nullopt, name};
 }
 
-/// Returns how many bits of a value are at a place.
+/// Returns the width of a place in bits.
 int bits_at(const Place& place) {
   const int width = width_of(place.row->type);
   return place.part == Place::Part::whole ? width : 16;
 }
 
-/// Returns the bits of a place that a number or a field's name denotes, or nothing if there are no such bits.
+/// Returns the bits of a place to which a number or a field name refers, or nothing if there are no such
+/// bits.
 std::optional<NamedPlace> bits_called(const Place& place, std::string_view name) {
   if (place.row->type == Type::bit) return std::nullopt;
   int bit = -1;
@@ -325,7 +326,7 @@ std::optional<Table> table_called(std::string_view name) {
 
 namespace {
 
-/// Returns the shortest text that reads back as this single.
+/// Returns the shortest text that parses to this single-precision number.
 std::string real_text(Value value) {
   std::array<char, 32> text{};
   const auto [end, error] = std::to_chars(text.data(), text.data() + text.size(), real_of(value));

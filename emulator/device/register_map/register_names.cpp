@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::string_view kHole = "{}";
 
-/// Hashes the beginning of a name with FNV-1a, one character at a time.
+/// Hashes the beginning of a name with FNV-1a, character by character.
 constexpr std::uint32_t begin_hash(Table table) { return 2166136261U + static_cast<std::uint32_t>(table); }
 constexpr std::uint32_t hash_on(std::uint32_t hash, char next) {
   return (hash ^ static_cast<unsigned char>(next)) * 16777619U;
@@ -43,7 +43,7 @@ std::optional<int> number_in(std::string_view text) {
   return number;
 }
 
-/// Returns the index of the row's register that has this label between the pattern's ends.
+/// Returns the index of the row's register that has this label between the two ends of the pattern.
 std::optional<int> index_of_label(const RegisterRow& row, std::string_view label) {
   if (!row.labels.empty()) {
     const auto found = std::find(row.labels.begin(), row.labels.end(), label);
@@ -93,8 +93,8 @@ std::string_view RegisterNames::text_of(const Pattern& pattern) const {
   return pattern.is_alias ? row.alias : row.name;
 }
 
-/// Returns the index of the register that a name denotes, or nothing if it does not match the pattern.
-/// `begins_with` is the length of the beginning with the pattern's hash.
+/// Returns the index of the register to which a name refers, or nothing if the name does not match the
+/// pattern. `begins_with` is the length of the beginning that has the pattern's hash.
 std::optional<int> RegisterNames::index_of(const Pattern& pattern, std::size_t begins_with,
                                            std::string_view name) const {
   const RegisterRow& row = rows_[pattern.row];

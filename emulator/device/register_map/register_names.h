@@ -1,4 +1,4 @@
-// Finds the registers of a model's rows by name. One pattern of a row ("D{}") names thousands of registers,
+// Finds the registers of a model's rows by name. One pattern in a row ("D{}") represents thousands of names,
 // so names are computed from patterns and never stored.
 #pragma once
 
@@ -15,12 +15,12 @@
 
 namespace understudy::emulator {
 
-/// The parts of a 32-bit register. Its halves have names too.
+/// The parts of a 32-bit register. Halves also have names.
 enum class RegisterPart : std::uint8_t { whole, low, high };
 
 class RegisterNames {
  public:
-  /// The rows must outlive it.
+  /// The rows must outlive this object.
   explicit RegisterNames(std::span<const RegisterRow> rows);
 
   struct Named {
@@ -32,15 +32,16 @@ class RegisterNames {
 
   /// Calls `act` for every name, in the order of the rows.
   void for_each(const std::function<void(const Named& named, const std::string& name)>& act) const;
-  /// Throws std::logic_error if two registers of a table have the same name. It takes as long as looking up
-  /// all names, so it is only for models from a user's file, and for tests of our own rows.
+  /// Throws std::logic_error if two registers of a table have the same name. This takes as long as looking up
+  /// all names, so use it only for models from users' files, and for tests of our own rows.
   void require_distinct() const;
 
-  /// Returns the name of a row's register by one of its patterns: "MAIN_LINE" + number + "_CMD".
+  /// Returns the name of a row's register according to one of the row's patterns: "MAIN_LINE" + number +
+  /// "_CMD".
   static std::string name_of(const RegisterRow& row, int index, std::string_view pattern);
 
  private:
-  /// Patterns are hashed by the beginning of their names: the part before "{}", or the whole.
+  /// Patterns are hashed by the beginning of their names: the part before "{}", or the whole name.
   struct Pattern {
     std::uint32_t hash = 0;
     std::uint32_t next = 0;  // the next pattern in the same bucket, counted from 1; 0: none
@@ -56,12 +57,12 @@ class RegisterNames {
   std::span<const RegisterRow> rows_;
   std::vector<Pattern> patterns_;
   std::vector<std::uint32_t> buckets_;  // the number of buckets is a power of two
-  std::size_t longest_ = 0;             // length of the longest beginning
+  std::size_t longest_ = 0;             // the length of the longest beginning
 };
 
 /// Returns the meaning of a row's register, in English: "X: jogs in the positive direction while on".
 std::string meaning_of(const RegisterRow& row, int index);
-/// Returns the manual's own heading for it. Empty if the manual only names the section.
+/// Returns the manual's heading for the register, or an empty text if the manual has only a section name.
 std::string heading_of(const RegisterRow& row, int index);
 
 }  // namespace understudy::emulator

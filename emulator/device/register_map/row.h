@@ -1,5 +1,5 @@
-// The vocabulary in which a model declares its registers: one row for each register (or a range of similar
-// ones), in the manual's order and spelling. Everything else about registers is derived from these rows.
+// The vocabulary with which a model declares its registers: one row per register (or range of similar
+// registers), in the manual's order and spelling. Everything else about registers is derived from these rows.
 #pragma once
 
 #include <bit>
@@ -19,10 +19,10 @@ class RegisterBankOf;
 
 enum class Table : std::uint8_t { holding, input, coil, discrete };
 enum class Access : std::uint8_t { read, write, read_write };
-/// `bit` is for coils and discrete inputs, one for each address. `f32` is an IEEE 754 single.
+/// `bit` is for coils and discrete inputs, one per address. `f32` is an IEEE 754 single-precision number.
 enum class Type : std::uint8_t { u16, s16, u32, s32, bit, f32 };
 
-/// Wide enough for the values of every type. A real is stored as its 32 bits: see real_of() and
+/// Wide enough for the values of every type. A real is stored as its 32 bits; see real_of() and
 /// value_of_real().
 using Value = std::int64_t;
 
@@ -51,7 +51,7 @@ constexpr Value value_of(std::uint32_t bits, Type type) {
   return 0;
 }
 
-/// The limits of a type; for reals, as their bits.
+/// The limits of a type. For reals, they are given as bits.
 struct TypeLimits {
   Value lowest = 0;
   Value highest = 0;
@@ -76,27 +76,27 @@ struct Cell {
   bool high_half = true;  // true if a write includes the high word (always true for 16-bit registers)
 };
 
-/// Says when the value of a reader may change without a write. A program that waits for a value is evaluated
-/// again only in these ticks.
+/// When the value of a reader may change without a write. A program that waits for a value is evaluated again
+/// only in these ticks.
 enum class Varies : std::uint8_t {
-  in_ticks,      // in ticks that are run in full, or by outside events
+  in_ticks,      // in ticks that are run in full, or through outside events
   while_moving,  // with the pulses of an axis, so even in ticks that Device::fast_forward_to() skips
-  with_time,     // by the clock alone, at the ticks that `changes_at` gives
+  with_time,     // merely because time passes, at the ticks that `changes_at` returns
 };
 
-/// Returns the present value, if it is not simply the stored one.
+/// Returns the present value if it differs from the stored value.
 using Reader = Value (*)(const RegisterBank& bank, Cell cell);
-/// Returns the first tick after `done` at which the value may change with time alone, or kNever if it does
-/// not depend on time now.
+/// Returns the first tick after `done` in which the value may change merely because time passes, or kNever if
+/// it does not depend on time now.
 using NextChange = Tick (*)(const RegisterBank& bank, Cell cell, Tick done);
-/// Does everything that a write does besides storing. Effects run in ascending order, after the whole request
-/// is stored.
+/// Does everything that a write does in addition to storing the value. Effects run in ascending order, after
+/// the whole request has been stored.
 using Effect = void (*)(RegisterBank& bank, Cell cell, Value value);
 /// Handles the words that one request has written to a window, or refuses them without changing anything.
 using Message = DeviceAnswer (*)(RegisterBank& bank, Cell cell, std::span<const std::uint16_t> words);
 
-/// Adapts a model's functions, which take the device that contains the bank for which they are called
-/// (register_bank.h). `D` may be incomplete where the rows are declared.
+/// Adapts a model's functions to these types. The functions' first parameter is the device that contains the
+/// bank (register_bank.h). `D` may be incomplete where the rows are declared.
 template <auto function>
 struct Handler;
 template <typename D, Value (*function)(const D&, Cell)>
@@ -135,7 +135,7 @@ struct BitField {
   int bit = 0;  // the lowest bit
   std::string_view name;
   int width = 1;
-  Reader reader = nullptr;  // reads the present value, if it is not simply the register's
+  Reader reader = nullptr;  // reads the present value if it differs from the register's bits
   Varies varies = Varies::in_ticks;
 
   template <auto function, Varies when>
@@ -155,22 +155,21 @@ constexpr BitField bits(int lowest, std::string_view name, int width = 1) {
   return field;
 }
 
-/// The meaning of a register, in a few words; "{}" stands for its number or axis, as in names.
+/// The meaning of a register in a few words. "{}" stands for its number or axis, as in names.
 struct Meaning {
   std::string_view in_english;
-  std::string_view in_the_manual;  // the manual's own words; empty if it says nothing about this register
+  std::string_view in_the_manual;  // the manual's own words; empty if it does not mention this register
 };
 
 struct RegisterRow {
   std::uint16_t address = 0;
   std::string_view name;   // as printed in the manual, without _L/_RegL; "{}" stands for the number
-  std::string_view alias;  // a second spelling in the manual, or an additional name of the first of several
-                           // registers; empty if there is none
+  std::string_view alias;  // a second spelling, or another name for the first register; may be empty
   Type type = Type::u16;
   Access access = Access::read_write;
   Table table = Table::holding;
 
-  bool ranged = false;  // the manual gives a range
+  bool ranged = false;  // the manual specifies a range
   Value min = 0;
   Value max = 0;
   std::string_view unit;
@@ -193,24 +192,24 @@ struct RegisterRow {
   Firmware since = 0;
   std::string_view section;  // the section of the manual
   Meaning meaning{};
-  std::span<const Meaning> meanings{};             // the meanings, if each register of the row has its own
-  std::span<const std::string_view> axis_names{};  // axes of the registers, if names have numbers
+  std::span<const Meaning> meanings{};             // one per register, if their meanings differ
+  std::span<const std::string_view> axis_names{};  // the axes of the registers, if their names have numbers
 
   int argument = 0;
   Reader reader = nullptr;
   Varies varies = Varies::in_ticks;  // when the reader's value may change
   NextChange next_change = nullptr;  // if the value depends on time
   Effect effect = nullptr;
-  bool is_view = false;  // shows other state, or `factory` without a reader: no slot, not persistent
+  bool is_view = false;  // shows other state, or `factory` without a reader; no slot, not persistent
   std::span<const BitField> fields{};
-  Message message = nullptr;         // of a window: handles what one request writes from its first word on,
-  int min_words = 1;                 // if it is at least this many words
-  bool acts_on_zero = true;          // false: a trigger, for which a written 0 has no effect
-  std::string_view not_implemented;  // if the register only stores and reads back: what is missing
+  Message message = nullptr;            // for a window: handles what a request writes from its first word on
+  int min_words = 1;                    // the minimum number of words of such a message
+  bool acts_on_zero = true;             // false: a trigger, on which writing 0 has no effect
+  std::string_view not_implemented;     // if the register only stores and returns its value: what is missing
   Hazards hazards = Hazards::unmarked;  // the hazards of a write; see hazards_of()
 
   // --- how a row is written down ---------------------------------------------------------------
-  /// Says what a write can do in a real controller.
+  /// Specifies what a write can do in a real controller.
   constexpr RegisterRow& may(Hazards what) {
     hazards = what;
     return *this;
@@ -264,13 +263,13 @@ struct RegisterRow {
     first_number = number_of_first;
     return *this;
   }
-  /// Sets a different step between the numbers of times(): D8100, D8200, ...
+  /// Sets the step between the numbers of times(): D8100, D8200, ...
   constexpr RegisterRow& numbered_by(int step) {
     number_step = step;
     return *this;
   }
-  /// Declares one register for each axis, `apart` addresses apart; "{}" in the name stands for the axis.
-  /// `first` is the number of the first of these axes, if the row is not for all axes of the device.
+  /// Declares one register per axis, `apart` addresses apart. "{}" in the name stands for the axis. `first`
+  /// is the number of the first of these axes, if the row does not include all axes of the device.
   constexpr RegisterRow& each(std::span<const std::string_view> axes, int apart, int first = 0) {
     labels = axes;
     first_axis = first;
@@ -285,7 +284,7 @@ struct RegisterRow {
     high_half = high;
     return *this;
   }
-  /// The register's words, or the bytes in them, are in a different order from the model's.
+  /// The register's words, or the bytes in them, have a different order from the model's.
   constexpr RegisterRow& ordered(bool other_words, bool other_bytes) {
     swaps_words = other_words;
     swaps_bytes = other_bytes;
@@ -302,13 +301,13 @@ struct RegisterRow {
     argument = with_argument;
     return *this;
   }
-  /// The reader's value depends on time: it changes by itself at these ticks.
+  /// The reader's value depends on time: it changes at the ticks that the function returns.
   template <auto function>
   constexpr RegisterRow& changes_at() {
     next_change = Handler<function>::call;
     return *this;
   }
-  /// The register is a view of other state: a reader shows it, and an effect passes writes on to it.
+  /// The register is a view of other state: a reader shows the state, and an effect passes writes on to it.
   template <auto function, Varies when>
   constexpr RegisterRow& shows(int with_argument = 0) {
     is_view = true;
@@ -319,7 +318,7 @@ struct RegisterRow {
     is_view = true;
     return from_factory(value);
   }
-  /// The register is a view whose bits are other state.
+  /// The register is a view whose bits represent other state.
   constexpr RegisterRow& shows_bits(std::span<const BitField> of_it, int with_argument = 0) {
     is_view = true;
     return with_bits(of_it, with_argument);
@@ -340,7 +339,7 @@ struct RegisterRow {
     acts_on_zero = false;
     return does<function>(with_argument);
   }
-  /// Returns true if its reader, or that of a field, varies with the pulses of an axis.
+  /// Returns true if the reader, or the reader of a field, varies with the pulses of an axis.
   constexpr bool moves() const {
     bool does = varies == Varies::while_moving;
     for (const BitField& field : fields) does = does || field.varies == Varies::while_moving;
@@ -384,13 +383,13 @@ constexpr RegisterRow discrete(std::uint16_t address, std::string_view name) {
 constexpr bool can_be_written(const RegisterRow& row) {
   return row.access != Access::read && (row.table == Table::holding || row.table == Table::coil);
 }
-/// Returns what a write to a register of the row can do. Every write at least changes a value.
+/// Returns what a write to a register of the row can do. Every write changes at least a value.
 constexpr Hazards hazards_of(const RegisterRow& row) {
-  if (!can_be_written(row)) return Hazards::settings;  // the manual says that nothing happens
+  if (!can_be_written(row)) return Hazards::settings;  // according to the manual, nothing happens
   return row.hazards | Hazards::settings | (row.persistent ? Hazards::memory : Hazards::reads);
 }
-/// Returns true if every row that can be written says what a write can do. Each built-in model requires this
-/// when it is compiled.
+/// Returns true if every writable row specifies what a write can do. For each built-in model, this is
+/// required at compile time.
 constexpr bool are_marked(std::span<const RegisterRow> rows) {
   for (const RegisterRow& row : rows) {
     if (can_be_written(row) && row.hazards == Hazards::unmarked) return false;
@@ -403,7 +402,7 @@ constexpr RegisterRow marked(RegisterRow row, Hazards hazards) {
   return row;
 }
 
-/// Declares words that one request writes as one message. "{}" in the name stands for the word's number.
+/// Declares words that form a message if one request writes them. "{}" in the name is the word's number.
 template <auto function>
 constexpr RegisterRow window(std::uint16_t address, std::string_view name, int words, int min = 1) {
   RegisterRow row = reg(address, name, Type::u16, Access::write);
@@ -413,15 +412,15 @@ constexpr RegisterRow window(std::uint16_t address, std::string_view name, int w
   return row.times(words, 1, 0);
 }
 
-/// The model's answers to questions that the map or the Modbus standard leaves open.
+/// The model's answers to questions that the register map or the Modbus standard leaves open.
 struct MapPolicy {
-  /// `holes_read_zero` is for addresses before the last register of a table; reads beyond it, and writes,
-  /// are refused.
+  /// `holes_read_zero` applies to addresses before the last register of a table. Reads beyond that, and
+  /// writes, are refused.
   enum class Unmapped : std::uint8_t { refused, reads_zero, holes_read_zero } unmapped = Unmapped::refused;
   enum class WriteOnly : std::uint8_t { reads_zero, refused } write_only = WriteOnly::reads_zero;
   enum class ReadOnly : std::uint8_t { refused, ignores_writes } read_only = ReadOnly::refused;
-  /// A write of half a 32-bit register alone is accepted whatever the whole becomes, checked together with
-  /// the present other half, never accepted, or (for the low half) accepted as the whole, with its sign.
+  /// A write of only half a register is accepted with any resulting value, checked together with the other
+  /// half, never accepted, or (for the low half) accepted as the whole value, with its sign.
   enum class Halves : std::uint8_t {
     may_be_written_alone,
     judged_with_the_other,
@@ -432,17 +431,17 @@ struct MapPolicy {
     may_be_read_alone,
     come_whole
   } read_halves = ReadHalves::may_be_read_alone;
-  /// The refusal of a request that cuts a register if that is not allowed.
+  /// The refusal of a request that contains half a register, if that is not allowed.
   Refusal cut_pair = Refusal::no_register;
-  /// With `stored`, the value is stored unchanged and limited on use; the range is the manual's.
+  /// With `stored`, the value is stored unchanged and limited when it is used; the range is the manual's.
   enum class OutOfRange : std::uint8_t { refused, clamped, stored } out_of_range = OutOfRange::refused;
-  /// What a request with one value out of range leaves written: nothing, or the registers before that one.
+  /// What a request with one value out of range writes: nothing, or the registers before that value.
   enum class Partly : std::uint8_t { never, up_to_the_refused } partly = Partly::never;
-  /// When the registers of one request take effect: after all of them are stored, or one by one.
+  /// When the registers of a request take effect: after all of them are stored, or one by one.
   enum class Effects : std::uint8_t { after_all, one_by_one } effects = Effects::after_all;
   bool low_word_first = true;
-  /// The holding register that sets the order of words, if it can change; 1 is low word first. It is for our
-  /// own hosts; the device reports the order in effect (RegisterBank::low_word_first).
+  /// The holding register that selects the word order, if the order can change; 1 means low word first. It is
+  /// for our own hosts; the device itself reports the present order (RegisterBank::low_word_first).
   std::string_view word_order_in{};
 };
 

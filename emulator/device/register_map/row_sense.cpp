@@ -24,8 +24,8 @@ struct Require {
   }
 };
 
-/// Returns true if find() can reach the name. It would read "0x10" as an address, "A.B" as a bit, and
-/// "input.A" as a register of a table.
+/// Returns true if find() can find the name. It would interpret "0x10" as an address, "A.B" as a bit, and
+/// "input.A" as a register in a table.
 bool is_name(std::string_view name) {
   return !name.empty() && name.find('.') == std::string_view::npos && (name[0] < '0' || name[0] > '9') &&
          !table_called(name);
@@ -59,8 +59,8 @@ void validate_place(const RegisterRow& row, const Require& require) {
   require(!is_read_only_table || row.access == Access::read, "is in a table that hosts cannot write");
 }
 
-/// Returns true if the lower limit is not above the upper one. Reals are compared as reals, because their
-/// bits are in a different order.
+/// Returns true if the lower limit does not exceed the upper limit. Reals are compared as reals, because
+/// their bits have a different order.
 bool is_in_order(const RegisterRow& row) {
   if (row.type == Type::f32) return real_of(row.min) <= real_of(row.max);
   return row.min <= row.max;

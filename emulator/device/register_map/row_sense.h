@@ -5,7 +5,7 @@
 
 namespace understudy::emulator {
 
-/// Throws std::logic_error with the row's name and what is wrong with it.
+/// Throws std::logic_error, which contains the row's name and what is wrong with the row.
 void validate_rows(const RegisterRow& row);
 
 }  // namespace understudy::emulator

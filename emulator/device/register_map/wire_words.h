@@ -1,4 +1,5 @@
-// The words of a register as they appear on the line: in the model's order, or in the register's own.
+// The words of a register as they appear on the line: in the model's order, or in an order of the register's
+// own.
 #pragma once
 
 #include <array>

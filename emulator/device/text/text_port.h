@@ -1,4 +1,4 @@
-// The line of a model with a text protocol: it has one port and no station number.
+// The line of a model with a text protocol, which has one port and no station number.
 #pragma once
 
 #include <span>

@@ -30,7 +30,7 @@ constexpr std::array<std::array<Answer, kActivities>, kCommands> kAnswers{{
     // rests    moves      runs       homes     stops
     {{nothing, halt, halt, halt, halt}},                    // stop_at_once
     {{nothing, slow_down, slow_down, slow_down, nothing}},  // stop
-    {{nothing, halt, halt, halt, halt}},                    // enable, when it no longer holds
+    {{nothing, halt, halt, halt, halt}},                    // enable, when it is no longer active
     {{begin, nothing, nothing, nothing, nothing}},          // home
     {{begin, join, join, nothing, join}},                   // start
     {{begin, join, join, nothing, join}},                   // start_relative
@@ -133,7 +133,7 @@ void execute(AxisState& axis, const AxisBinding& binding, Command command, const
     case begin:
     case join: break;
   }
-  axis.direction_is_spent = true;  // a host must release its command before it counts again
+  axis.direction_is_spent = true;  // a host must release its command and give it again
   if (command == Command::home) return go_home(axis, binding, numbers, now);
   std::int64_t distance = 0;
   if (command == Command::start) {
@@ -157,7 +157,7 @@ void steer(AxisState& axis, int direction, const AxisNumbers& numbers, Tick now)
     if (wanted == 0) return;
     axis.arrived = false;
     axis.run_pps = top;
-    // A limit, or a lost enable, would otherwise refuse the motion in every tick.
+    // Otherwise, a limit or a missing enable would refuse the motion in every tick.
     axis.direction_is_spent = axis.motor.run(wanted, numbers.law(top), now) != motion::Cause::none;
     return;
   }
@@ -176,7 +176,7 @@ void enable(AxisState& axis, const AxisBinding& binding, bool on) {
   const bool is_on = on || !binding.command(Command::enable);
   if (axis.motor.servo_on == is_on) return;
   axis.motor.switch_servo(is_on);
-  if (is_on) axis.direction_is_spent = false;  // levels that hosts hold count from now on
+  if (is_on) axis.direction_is_spent = false;  // commands that hosts still hold count from now on
 }
 
 bool note_events(AxisState& axis, const AxisBinding& binding) {
@@ -187,7 +187,7 @@ bool note_events(AxisState& axis, const AxisBinding& binding) {
     set_position(axis, binding, binding.home_position);
   }
   const bool has_ended = (events & motion::bit(motion::Event::ended)) != 0;
-  if (has_ended && axis.motor.task == motion::Task::none) {  // no other motion has begun since
+  if (has_ended && axis.motor.task == motion::Task::none) {  // no other motion has begun in the meantime
     const motion::Cause cause = axis.motor.cause;
     if (cause == motion::Cause::arrived) axis.arrived = true;
     // The host must give its command again, unless the axis stopped to reverse.

@@ -1,4 +1,4 @@
-// One axis of a described controller: how it executes the commands of hosts, and what it shows.
+// An axis of a described controller: how it executes commands from hosts, and what it shows.
 //
 // The effect of a command depends on the axis's activity: kAnswers in axis_drive.cpp has a row for each
 // command and a column for each activity. docs/import.md shows this table to users.
@@ -23,9 +23,9 @@ struct AxisState {
   motion::Counter counter{};     // the position, in pulses
   std::int64_t sent_pulses = 0;  // pulses of the last tick, in the motor's direction
   std::int64_t encoder_counts = 0;
-  double run_pps = 0;                // speed at which it runs forward or backward
+  double run_pps = 0;                // speed for running forward or backward
   std::int8_t wanted_direction = 0;  // requested by hosts: +1 forward, -1 backward, 0 neither or both
-  // The request no longer counts: the axis runs again only on a new one.
+  // The request no longer counts. The axis runs again only on a new request.
   bool direction_is_spent = false;
   bool arrived = false;  // the last move has reached its target
   bool homed = false;
@@ -48,8 +48,8 @@ Answer answer_to(Command command, Activity activity, WhileBusy while_busy);
 
 /// Returns the current value of a quantity, in counts.
 using CountsOf = std::function<double(const Quantity& quantity)>;
-/// Gives the current numbers of an axis, in their units (seconds, pulses per second). The result is empty for
-/// a number that is not bound.
+/// Returns the present numbers of an axis, in their units (seconds, pulses per second). The result is empty
+/// for a number that is not bound to anything.
 class AxisNumbers {
  public:
   AxisNumbers(const AxisBinding& binding, const CountsOf& counts_of)
@@ -58,9 +58,9 @@ class AxisNumbers {
   /// Returns a speed or acceleration in pulses per second.
   std::optional<double> pps(Number which) const;
   double speed_pps() const { return pps(Number::speed).value_or(0); }
-  /// Converts a count of positions to pulses, rounded.
+  /// Converts a position count to pulses, rounded.
   std::int64_t pulses(double counts) const;
-  /// Returns the speed law of a move. Without a time, its ramps take a millionth of a second.
+  /// Returns the speed law of a move. If no ramp time is bound, ramps take a millionth of a second.
   motion::SpeedLaw law(double top_pps) const;
 
  private:
@@ -70,17 +70,17 @@ class AxisNumbers {
 };
 
 /// Executes a one-shot command. `now` is the last completed tick. Throws motion::BadMotion for numbers that
-/// no motion can have; then nothing changes.
+/// are impossible for a motion; in that case, nothing changes.
 void execute(AxisState& axis, const AxisBinding& binding, Command command, const AxisNumbers& numbers,
              Tick now);
-/// Runs the axis in the direction that hosts request now: +1, -1 or 0. Throws as execute() does.
+/// Runs the axis in the direction that hosts request now: +1, -1 or 0. Throws the same errors as execute().
 void steer(AxisState& axis, int direction, const AxisNumbers& numbers, Tick now);
 /// Enables or disables the axis. An axis without that command is always enabled.
 void enable(AxisState& axis, const AxisBinding& binding, bool on);
-/// Handles the events of the tick just stepped. Returns true if a motion has ended.
+/// Handles the events of the last tick. Returns true if a motion has ended.
 bool note_events(AxisState& axis, const AxisBinding& binding);
 
-/// Returns the signed speed, in the motor's direction.
+/// Returns the speed, with the sign of the motor's direction.
 double speed_pps(const AxisState& axis, Tick now);
 /// Returns the axis's position in counts.
 std::int64_t position_counts(const AxisState& axis, const AxisBinding& binding);

@@ -1,5 +1,5 @@
 // Describes a controller that a user imports: a list of registers, and the purpose of some of them. All of it
-// is data that owns its names. emulator/model_file/ reads it from files, and model.h makes a Model of it.
+// is data that owns its names. emulator/model_file/ reads it from files, and model.h creates a Model from it.
 #pragma once
 
 #include <array>
@@ -27,7 +27,7 @@ struct BitName {
   int width = 1;
 };
 
-/// How the words of one quantity, and the bytes of each word, follow each other on the line.
+/// The order of the words of a quantity, and of the bytes in each word, on the line.
 struct WordOrder {
   enum class Words : std::uint8_t { as_the_model, high_first, low_first } words = Words::as_the_model;
   bool low_byte_first = false;
@@ -38,8 +38,8 @@ struct ListedRegister {
   Table table = Table::holding;
   std::uint16_t address = 0;
   std::string name{};
-  std::string printed{};  // the manual's name, if it cannot serve as `name`
-  std::string alias{};    // the name that another row of the list gives it
+  std::string printed{};  // the name in the manual, if it cannot be used as `name`
+  std::string alias{};    // the name that another row of the list uses for it
   Type type = Type::u16;
   WordOrder order{};
   Access access = Access::read_write;
@@ -53,10 +53,10 @@ struct ListedRegister {
   Firmware since = 0;  // 0: in every firmware
 };
 
-/// Names a register, by its number in the list, or some of its bits.
+/// Refers to a register, by its number in the list, or to some of its bits.
 struct Spot {
   std::size_t number = 0;
-  int bit = -1;  // the lowest of the bits; -1: the whole register
+  int bit = -1;  // the lowest bit; -1: the whole register
   int width = 1;
   bool is_whole() const { return bit < 0; }
   bool operator==(const Spot&) const = default;
@@ -65,11 +65,11 @@ struct Spot {
 /// The value of a register, or a fixed number.
 struct Quantity {
   std::optional<Spot> spot{};
-  double number = 0;  // if there is no register
+  double number = 0;  // used if there is no register
   double unit = 1;    // the quantity that one count represents
 };
 
-/// A condition that is true if the spot has `value`. Without a value, it is true if the spot is not 0.
+/// A condition that is true if the spot contains `value`, or, without a value, if the spot is not 0.
 struct Condition {
   Spot spot;
   std::optional<Value> value{};
@@ -78,8 +78,7 @@ struct Condition {
 
 // --- axes ------------------------------------------------------------------------------------------
 
-/// The numbers that an axis reads from registers. Distances are in counts of position, speeds in counts of
-/// speed.
+/// The numbers that an axis reads from registers. Distances are in position counts, speeds in speed counts.
 enum class Number : std::uint8_t {
   target,
   distance,
@@ -94,24 +93,25 @@ enum class Number : std::uint8_t {
 };
 inline constexpr std::size_t kNumbers = 10;
 
-/// The commands that hosts give to an axis, in the order in which those of one request take effect.
+/// The commands that hosts give to an axis, in the order in which they take effect if one request contains
+/// several.
 enum class Command : std::uint8_t {
   stop_at_once,
   stop,
-  enable,  // while it holds
+  enable,  // as long as the condition is true
   home,
   start,           // to `target`
   start_relative,  // by `distance`
-  forward,         // while it holds
-  backward,        // while it holds
+  forward,         // as long as the condition is true
+  backward,        // as long as the condition is true
 };
 inline constexpr std::size_t kCommands = 8;
-/// Returns true if a command applies as long as it holds, false for a one-shot command.
+/// Returns true if a command applies as long as its condition is true, and false for a one-shot command.
 constexpr bool is_level(Command command) {
   return command == Command::enable || command == Command::forward || command == Command::backward;
 }
 
-/// The values of an axis that registers show.
+/// The properties of an axis that registers can show.
 enum class View : std::uint8_t {
   position,
   actual_speed,
@@ -126,7 +126,7 @@ enum class View : std::uint8_t {
   at_lower_limit,
 };
 inline constexpr std::size_t kViews = 11;
-/// When each view changes without a write by a host.
+/// When each view changes without a write from a host.
 inline constexpr HandlerRow<View, Varies> kChangesOfViews[] = {
     {View::position, Varies::while_moving},   {View::actual_speed, Varies::while_moving},
     {View::encoder, Varies::while_moving},    {View::busy, Varies::in_ticks},
@@ -148,10 +148,10 @@ constexpr Varies changes_of(View view) {
 /// Returns true if the view is 0 or 1.
 constexpr bool is_flag(View view) { return view >= View::busy; }
 
-/// What a start does while the axis moves: it continues to the new target, has no effect, or is answered with
-/// busy.
+/// The effect of a start while the axis is moving: the axis continues to the new target, nothing happens, or
+/// the answer is `busy`.
 enum class WhileBusy : std::uint8_t { replace, ignore, refuse };
-/// What a start does while the axis is not enabled: it has no effect, or is answered with failure.
+/// The effect of a start while the axis is not enabled: nothing happens, or the answer is `failure`.
 enum class WhileDisabled : std::uint8_t { ignore, refuse };
 
 struct AxisBinding {
@@ -160,14 +160,14 @@ struct AxisBinding {
   std::array<std::optional<Condition>, kCommands> commands{};
   std::array<std::optional<Spot>, kViews> views{};
   motion::UnitScale pulses_per_count{};  // pulses per position count
-  double pps_per_count = 1;              // pulses per second for each speed count
+  double pps_per_count = 1;              // pulses per second per speed count
   // Numbers of inputs; -1: none.
   int upper_limit_input = -1;
   int lower_limit_input = -1;
   int home_input = -1;
   int alarm_input = -1;
   int home_direction = -1;        // direction of the search for the home switch
-  Value home_position = 0;        // position in counts once home is found
+  Value home_position = 0;        // the position in counts when home has been found
   int pulses_per_revolution = 0;  // 0: unknown
   WhileBusy while_busy = WhileBusy::replace;
   WhileDisabled while_disabled = WhileDisabled::ignore;
@@ -180,17 +180,17 @@ struct AxisBinding {
   }
 };
 
-// --- values that belong to no axis -------------------------------------------------------------------------
+// --- values that do not belong to an axis ------------------------------------------------------------------
 
-/// A register that follows another value, as a temperature follows its setpoint.
+/// A register that follows another value, such as a temperature that follows its setpoint.
 struct Following {
   Spot spot;                              // a whole register
   Quantity of;                            // the followed value
-  std::optional<Condition> as_long_as{};  // condition for following; none: always
-  Quantity rest;                          // the value that it approaches otherwise
-  double time_constant_s = 0;             // 0: at once, limited only by `max_per_s`
+  std::optional<Condition> as_long_as{};  // the condition for following; none: always
+  Quantity rest;                          // the value that it otherwise approaches
+  double time_constant_s = 0;             // 0: immediate, limited only by `max_per_s`
   double max_per_s = 0;                   // counts per second; 0: no limit
-  Tick every = 100;                       // period of its updates
+  Tick every = 100;                       // the interval between updates
 };
 
 /// A bit or a register that is 1 while a comparison is true.
@@ -211,7 +211,7 @@ struct Terminal {
 // --- the line ----------------------------------------------------------------------------------------
 
 struct Line {
-  bool is_ascii = false;  // frames of Modbus ASCII
+  bool is_ascii = false;  // Modbus ASCII frames
   std::vector<int> bauds{19200, 9600};
   int data_bits = 8;
   pty::Parity parity = pty::Parity::none;
@@ -219,10 +219,10 @@ struct Line {
   std::optional<pty::SimTime> silence{};  // silence that ends a frame; none: 3.5 characters
   int lowest_station = 1;
   int highest_station = 247;
-  std::string station_in{};  // name of the register that holds the station number; empty: none
+  std::string station_in{};  // name of the register that stores the station number; empty: none
   std::vector<std::uint8_t> functions{1, 2, 3, 4, 5, 6, 15, 16};
   std::vector<FunctionLimit> limits{};
-  std::vector<std::pair<std::uint8_t, std::string>> identity{};  // objects of function 43/14, ascending
+  std::vector<std::pair<std::uint8_t, std::string>> identity{};  // for function 43/14, ascending
   std::string server_id{};                                       // for function 17
   bool obeys_broadcasts = true;
 };
@@ -237,7 +237,7 @@ struct Description {
   std::string name{};
   std::string title{};
   std::string text{};                            // the text of the whole controller (Model::description)
-  std::vector<FileError::Diagnostic> remarks{};  // what its files leave open, and how it was interpreted
+  std::vector<FileError::Diagnostic> remarks{};  // what its files leave open, and how that was interpreted
   std::vector<Firmware> firmwares{100};          // ascending; the last is the default
   std::vector<ListedRegister> registers{};
   MapPolicy policy{.low_word_first = false};
@@ -246,7 +246,7 @@ struct Description {
   std::vector<AxisBinding> axes{};
   std::vector<Following> followings{};
   std::vector<Comparison> comparisons{};
-  std::vector<std::size_t> momentary{};  // registers that return to 0 once their command has started
+  std::vector<std::size_t> momentary{};  // registers that return to 0 when their command has started
 };
 
 }  // namespace understudy::emulator::models::imported

@@ -71,7 +71,8 @@ ImportedDevice::ImportedDevice(const ImportedModel& model, const DeviceSettings&
 
 const Description& ImportedDevice::description() const { return model_.description(); }
 
-/// A spot that shows an input starts with the register's default, so the input starts with it too.
+/// A spot that shows an input initially contains the register's default, so the input has the same initial
+/// level.
 std::int32_t ImportedDevice::level_at_rest(const Spot& spot) const {
   const Value whole = description().registers[spot.number].factory;
   if (!spot.is_whole()) return static_cast<std::int32_t>((whole >> spot.bit) & 1);
@@ -104,7 +105,7 @@ Value ImportedDevice::value_of_view(std::size_t axis_number, View view, Type typ
     case View::position: {
       const std::int64_t counts = position_counts(axis, binding);
       if (type == Type::f32) return value_of_real(static_cast<float>(counts));
-      return value_of(static_cast<std::uint32_t>(counts), type);  // a counter wraps when it is full
+      return value_of(static_cast<std::uint32_t>(counts), type);  // a counter wraps on overflow
     }
     case View::actual_speed: {
       const double counts = imported::speed_pps(axis, now()) / binding.pps_per_count;
@@ -217,7 +218,7 @@ void ImportedDevice::registers_written() {
   written_.clear();
 }
 
-/// A command on a bit is given when the bit turns on. A command on a register is given by each write.
+/// A command on a bit is given when the bit changes to 1. A command on a register is given by each write.
 bool ImportedDevice::is_given(const Condition& condition, bool was_held) const {
   const auto slot = static_cast<std::size_t>(model_.slot_of(condition.spot.number));
   if (std::find(written_.begin(), written_.end(), slot) == written_.end()) return false;
@@ -247,7 +248,7 @@ void ImportedDevice::check_commands() {
       const bool given = !is_level(command) && is_given(*condition, was_held != 0);
       was_held = holds_now(*condition) ? 1 : 0;
       if (command == Command::enable) enable(axis, binding, was_held != 0);
-      if (!given || is_stopped) continue;  // a stop in the same request wins
+      if (!given || is_stopped) continue;  // a stop in the same request takes precedence
       attempt(i, [&] { execute(axis, binding, command, numbers, now()); });
       is_stopped = command == Command::stop || command == Command::stop_at_once;
     }
@@ -280,7 +281,8 @@ void ImportedDevice::steer_axes(Tick done) {
 
 namespace {
 
-/// Returns the value that a request writes to a 16-bit register or a coil, or nothing if it writes none.
+/// Returns the value that a request writes to a 16-bit register or a coil, or nothing if it does not write
+/// it.
 std::optional<std::uint16_t> written_word(const RegisterRequest& request, const ListedRegister& listed) {
   if (request.table != listed.table || listed.address < request.first) return std::nullopt;
   const std::size_t index = static_cast<std::size_t>(listed.address - request.first);

@@ -1,5 +1,5 @@
 // Emulates a described controller: its registers, the axes that are bound to them, and values that follow
-// others. Its state is one value; the bindings belong to its model (model.h).
+// other values. Its state is one value; the bindings belong to its model (model.h).
 #pragma once
 
 #include <array>
@@ -28,11 +28,11 @@ class ImportedModel;
 struct ShownPart;
 
 struct State {
-  bool touched = true;  // host requests or inputs may have changed since motion last checked them
+  bool touched = true;  // requests or inputs may have changed since motion last checked them
   std::vector<std::uint32_t> image{};
-  std::vector<std::uint8_t> held{};  // whether the condition was true at the last check, by axis and command
+  std::vector<std::uint8_t> held{};  // by axis and command: whether the condition was true at the last check
   std::vector<AxisState> axes{};
-  std::vector<double> followed{};  // the values in counts, by following
+  std::vector<double> followed{};  // by following: the value in counts
   Eeprom eeprom{};
 
   bool operator==(const State&) const = default;
@@ -45,7 +45,7 @@ class ImportedDevice final : public StatefulDevice<ImportedDevice, State>,
                              public Terminals,
                              public Axes {
  public:
-  /// The model must outlive the device.
+  /// The device keeps a reference to the model.
   ImportedDevice(const ImportedModel& model, const DeviceSettings& settings);
 
   // --- registers -----------------------------------------------------------------------------
@@ -57,7 +57,7 @@ class ImportedDevice final : public StatefulDevice<ImportedDevice, State>,
   void warn_not_implemented(const RegisterRow& row) const override {
     Device::warn_not_implemented(row.name, row.not_implemented);
   }
-  /// Returns the current value of a register, by its type.
+  /// Returns the present value of a register according to its type.
   Value value_of_register(std::size_t number) const;
   Value value_at(const Spot& spot) const;
   void write_view(std::size_t number, Value value);
@@ -131,10 +131,11 @@ class ImportedDevice final : public StatefulDevice<ImportedDevice, State>,
   std::vector<MachineEdges> edges_;        // not state: set again after a restore
   std::vector<std::uint8_t> is_restored_;  // the axes that have been restored; not state
   std::vector<std::size_t> written_;       // slots of the registers written by the current request
-  std::vector<double> shares_;             // the shares of the distance covered in one period, by following
+  std::vector<double> shares_;             // by following: the fraction of the distance covered in a period
 };
 
-/// Read and write every row that shows other state (Cell::argument: the register's number in the list).
+/// These read and write every row that shows other state (Cell::argument is the register's number in the
+/// list).
 Value read_shown(const ImportedDevice& device, Cell cell);
 void write_shown(ImportedDevice& device, Cell cell, Value value);
 

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kRest = 1e-9;
 
-/// Returns 1 - exp(-x) for 0 <= x <= 0.5, by its series.
+/// Returns 1 - exp(-x) for 0 <= x <= 0.5, from its series.
 double by_series(double x) {
   double term = x;
   double sum = x;
@@ -28,7 +28,8 @@ double lag_fraction(double time_s, double time_constant_s) {
   if (!(x < 50)) return 1;
   int doublings = 0;
   for (; x > 0.5; x /= 2) ++doublings;
-  // The first half of the time covers the share s, and the second half covers s of the rest.
+  // The first half of the time covers the fraction s of the distance, and the second half covers s of the
+  // rest.
   double share = by_series(x);
   for (; doublings > 0; --doublings) share += share * (1 - share);
   return share;

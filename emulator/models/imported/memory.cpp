@@ -1,4 +1,4 @@
-// Saves what a described controller keeps without power, and its state as bytes.
+// Saves what a described controller retains without power, and its state as bytes.
 #include <cmath>
 #include <cstddef>
 #include <cstdint>

@@ -97,7 +97,8 @@ void ImportedModel::find_what_moves() {
   }
 }
 
-/// Returns how a host names a spot: "CONTROL.STOP", "CONTROL.1". Nothing if it can be written by no name.
+/// Returns the name with which a host can write a spot: "CONTROL.STOP", "CONTROL.1". Returns nothing if there
+/// is no such name.
 std::optional<std::string> ImportedModel::name_of(const Spot& spot) const {
   const RegisterRow& row = map_.rows()[spot.number];
   const ListedRegister& listed = description_.registers[spot.number];
@@ -109,7 +110,7 @@ std::optional<std::string> ImportedModel::name_of(const Spot& spot) const {
   return spot.width == 1 ? std::optional(name + "." + std::to_string(spot.bit)) : std::nullopt;
 }
 
-/// Every axis is stopped, at once if it can be, and then no jog bit stays on.
+/// Finds the steps that stop every axis, at once if possible. Afterwards, no jog bit may remain set.
 void ImportedModel::find_stops() {
   std::vector<std::pair<std::string, Value>> found;
   const auto add = [&](const Spot& spot, Value value) {
@@ -165,7 +166,7 @@ Model ImportedModel::made_model() {
                      .pulses_per_revolution = axis.pulses_per_revolution});
   }
   for (const auto& [id, text] : line.identity) identity_.push_back({.id = id, .text = text});
-  // Registers that are bound to something best show what the controller does.
+  // Registers that are bound to something show best what the controller is doing.
   for (std::size_t i = 0; i < shown_.size() && state_names_.size() < kMaxStateRegisters; ++i) {
     const RegisterRow& row = map_.rows()[i];
     if (!shown_[i].empty() && row.access != Access::write) state_names_.push_back(map_.unique_name(row, 0));

@@ -1,4 +1,4 @@
-// Makes a model from a description. It owns the tables that are constants in the other models.
+// Creates a model from a description. It owns the tables that are constants in the other models.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@
 
 namespace understudy::emulator::models::imported {
 
-/// Makes the rows of a list for a register map. They refer to the list. `fields` receives the named bits.
+/// Creates the rows for a register map from a list, to which they refer. `fields` receives the named bits.
 std::vector<RegisterRow> plain_rows(std::span<const ListedRegister> registers, const MapPolicy& policy,
                                     std::vector<std::vector<BitField>>& fields);
 
@@ -22,19 +22,19 @@ class ImportedModel {
  public:
   /// The description must be consistent (emulator/model_file/ checks this).
   explicit ImportedModel(Description description);
-  ImportedModel(const ImportedModel&) = delete;  // others refer to its tables
+  ImportedModel(const ImportedModel&) = delete;  // other objects refer to its tables
   ImportedModel& operator=(const ImportedModel&) = delete;
 
   const Model& model() const { return model_; }
   const Description& description() const { return description_; }
-  /// Return, for a register's number in the list, its slot in a device's image (Place::kNoSlot: none), its
-  /// type, and the state that it shows.
+  /// For a register's number in the list, these return its slot in a device's image (Place::kNoSlot: none),
+  /// its type, and the state that it shows.
   int slot_of(std::size_t number) const { return slots_[number]; }
   Type type_of(std::size_t number) const { return description_.registers[number].type; }
   std::span<const ShownPart> shown(std::size_t number) const { return shown_[number]; }
-  /// Returns true if an output may change with each pulse of an axis, because of what it shows.
+  /// Returns true if an output may change with each pulse of an axis, because of the state that it shows.
   bool output_moves(std::size_t terminal) const { return moving_outputs_[terminal]; }
-  /// Returns true if a number that an axis uses may change with each pulse; it is then read in each tick.
+  /// Returns true if a number that an axis uses may change with each pulse. It is then read in each tick.
   bool numbers_move() const { return numbers_move_; }
 
  private:

@@ -48,7 +48,7 @@ bool moves(const Description& description, const std::vector<std::vector<ShownPa
     switch (part.what) {
       case ShownPart::What::axis: return changes_of(part.view) == Varies::while_moving;
       case ShownPart::What::input: return false;      // a tick runs for each change of an input
-      case ShownPart::What::following: return false;  // changes only in the following's own ticks
+      case ShownPart::What::following: return false;  // changes only in the ticks of the following itself
       case ShownPart::What::comparison: {
         const Comparison& comparison = description.comparisons[part.number];
         return side_moves(comparison.left) || side_moves(comparison.right);

@@ -1,4 +1,4 @@
-// Finds the registers that show something other than their written values.
+// Determines which registers show something other than their written values.
 #pragma once
 
 #include <cstddef>
@@ -13,16 +13,16 @@ namespace understudy::emulator::models::imported {
 struct ShownPart {
   enum class What : std::uint8_t { axis, input, following, comparison } what = What::axis;
   Spot spot{};
-  std::size_t number = 0;  // number of the axis, the terminal, the following or the comparison
+  std::size_t number = 0;  // number of the axis, terminal, following or comparison
   View view = View::position;
 };
 
 /// Returns true if the value of a spot may change with each pulse of an axis (Varies::while_moving). `shown`
-/// covers all registers. The two sides of a comparison never show a comparison themselves.
+/// contains all registers. The operands of a comparison are never comparisons themselves.
 bool moves(const Description& description, const std::vector<std::vector<ShownPart>>& shown,
            const Spot& spot);
 
-/// Returns the shown parts of each register of the list.
+/// Returns the shown parts of each register in the list.
 std::vector<std::vector<ShownPart>> shown_parts(const Description& description);
 
 }  // namespace understudy::emulator::models::imported

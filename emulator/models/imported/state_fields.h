@@ -1,4 +1,4 @@
-// Lists the fields of a described controller's state (base/state/fields.h), in the order of the bytes.
+// The fields of a described controller's state (base/state/fields.h), in the order of the saved bytes.
 #pragma once
 
 #include "base/state/fields.h"

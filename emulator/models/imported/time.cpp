@@ -1,4 +1,4 @@
-// Advances a described controller in time: its inputs, its axes and the values that follow others.
+// Advances a described controller in time: its inputs, its axes and its following values.
 #include "emulator/models/imported/device.h"
 
 #include <algorithm>
@@ -52,7 +52,7 @@ void ImportedDevice::update_environment(std::size_t axis_number) {
 void ImportedDevice::set_edges(int axis, const MachineEdges& edges) {
   const auto number = static_cast<std::size_t>(axis);
   edges_[number] = edges;
-  // A restored state has already seen these inputs, but not the changes since the last tick.
+  // A restored state already includes these inputs, but not the changes since the last tick.
   if (is_restored_[number] == 0) update_environment(number);
   is_restored_[number] = 0;
 }
@@ -92,7 +92,7 @@ void ImportedDevice::renew_followed(Tick tick) {
     const double limit = following.max_per_s * static_cast<double>(following.every) / motion::kTicksPerSecond;
     const double before = state_.followed[i];
     state_.followed[i] = approach(before, goal_of(following), shares_[i], limit);
-    // An axis may use the value as a speed.
+    // An axis may use this value as a speed.
     if (state_.followed[i] != before && !state_.axes.empty()) state_.touched = true;
   }
 }
@@ -120,8 +120,8 @@ bool ImportedDevice::is_quiet(const AxisState& axis) const {
          axis.sent_pulses == 0 && axis.environment.version == motor.seen_version;
 }
 
-/// Returns the next tick that stores a value in the memory, or updates a following value that has not reached
-/// its goal or may leave it. Moving axes need further ticks.
+/// Returns the next tick in which a value is stored in the memory, or in which a following value that is not
+/// at its goal, or may leave it, is updated. Moving axes need further ticks.
 Tick ImportedDevice::next_tick_of_values(Tick done) const {
   const bool are_moving = any_moves();
   Tick next = state_.eeprom.next_active_tick();

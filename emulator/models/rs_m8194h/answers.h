@@ -1,4 +1,5 @@
-// RS-M8194H: the exceptions of refused requests, and the reasons that input 102 then shows (4.16.2, 12.1.12).
+// RS-M8194H: the exceptions for refused requests, and the reasons that input 102 then shows (4.16.2,
+// 12.1.12).
 #pragma once
 
 #include <cstdint>
@@ -9,7 +10,8 @@
 
 namespace understudy::emulator::models::rs_m8194h {
 
-/// Returns the refusal of a request for this fault; reason_of() is the number that input 102 then shows.
+/// Returns the refusal of a request because of this fault. reason_of() returns the number that input 102 then
+/// shows.
 DeviceAnswer answer_of(const Part& part, interpreter::rs_m8194h::Fault fault);
 std::uint8_t reason_of(const Part& part, interpreter::rs_m8194h::Fault fault);
 

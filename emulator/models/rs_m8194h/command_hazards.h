@@ -1,4 +1,5 @@
-// RS-M8194H: what each command can do when a host sends it. A command without a row does not compile.
+// RS-M8194H: what each command can do when a host sends it. If a command has no row, the table does not
+// compile.
 #pragma once
 
 #include <array>
@@ -26,12 +27,12 @@ namespace command_hazards {
 using interpreter::rs_m8194h::Verb;
 using Row = HandlerRow<Verb, Hazards>;
 
-inline constexpr Hazards kValue = Hazards::settings;  // from the next drive on
-inline constexpr Hazards kMotion = Hazards::motion;   // including commands that act on a drive in progress
+inline constexpr Hazards kValue = Hazards::settings;  // takes effect from the next drive on
+inline constexpr Hazards kMotion = Hazards::motion;   // including commands that affect a drive in progress
 inline constexpr Hazards kOutput = Hazards::output;
 inline constexpr Hazards kMemory = Hazards::memory;  // lines of macros are only stored
 inline constexpr Hazards kWires = kOutput | kMotion;
-inline constexpr Hazards kMacro = kMemory | kOutput | kMotion;  // a macro can do all that its lines do
+inline constexpr Hazards kMacro = kMemory | kOutput | kMotion;  // whatever its lines can do
 inline constexpr Hazards kEverything = Hazards::all;
 
 // clang-format off
@@ -178,7 +179,7 @@ inline constexpr Row kRows[] = {
 };
 // clang-format on
 
-/// A key may occur twice, because rows of the manual share verbs.
+/// A key may occur twice, because several rows of the manual share a verb.
 inline constexpr auto kVerbs = [] {
   std::array<Verb, interpreter::rs_m8194h::kCommands.size()> verbs{};
   std::size_t count = 0;
@@ -190,7 +191,7 @@ inline constexpr CompleteTable<Verb, Hazards> kTable(kVerbs, kRows);
 
 }  // namespace command_hazards
 
-/// Returns what a message to the window of commands can do.
+/// Returns what a message to the command window can do.
 inline Hazards hazards_of_command(std::span<const std::uint16_t> words) {
   namespace lang = interpreter::rs_m8194h;
   const lang::CommandRow* const row = words.empty() ? nullptr : lang::find_code(words[0]);
@@ -201,8 +202,8 @@ inline Hazards hazards_of_command(std::span<const std::uint16_t> words) {
          (is_initial ? Hazards::memory : Hazards::reads);
 }
 
-/// Returns the numbers of a command, as RSM_FIXED_MOVE X 1000 has 1000. Axes, operators and destinations are
-/// none. A line of a macro has the name of its command, too.
+/// Returns the numbers in a command, such as 1000 in RSM_FIXED_MOVE X 1000. Axes, operators and destinations
+/// do not count. A macro line is named like its command.
 inline std::optional<CommandNumbers> numbers_of_command(std::string_view text) {
   namespace lang = interpreter::rs_m8194h;
   using lang::Kind;

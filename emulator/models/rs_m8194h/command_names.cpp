@@ -31,7 +31,8 @@ lang::WordOrder order_of(const WindowForm& form) {
   return form.low_word_first && follows_order ? lang::WordOrder::low_first : lang::WordOrder::high_first;
 }
 
-/// The options for how a command is written. Whether the device accepts it is checked elsewhere.
+/// The options that determine how a command is written. Whether the device accepts the command is checked
+/// elsewhere.
 lang::Options options_of(const WindowForm& form) {
   return form.choices.empty() ? lang::Options{} : options_of_language(AskedOptions{.numbers = form.choices});
 }

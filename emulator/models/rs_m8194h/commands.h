@@ -1,5 +1,5 @@
-// RS-M8194H: the effects of commands, one function each. Their table (commands.cpp) has one for every
-// verb that a device executes.
+// RS-M8194H: the effects of commands. The table in commands.cpp has a function for every verb that a device
+// executes.
 #pragma once
 
 #include "emulator/models/rs_m8194h/module.h"

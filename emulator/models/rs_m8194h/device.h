@@ -1,5 +1,5 @@
-// RS-M8194H: four axes on a motion chip, behind a window of registers. The RS-M8194H itself speaks Modbus and
-// checks requests; the i-8094H module (module.h) has the FIFO, the chip and the macros.
+// RS-M8194H: four axes on a motion chip, behind a window of registers. The RS-M8194H itself handles Modbus
+// and checks requests; the i-8094H module (module.h) contains the FIFO, the chip and the macros.
 #pragma once
 
 #include <cstddef>

@@ -5,8 +5,8 @@
 
 namespace understudy::emulator::models::rs_m8194h {
 
-/// Sets nDRV, nLATCH, nPRESET, nOUT, nINT and the ISR of each axis, from parameter `first` on, for a mask of
-/// axes.
+/// Sets nDRV, nLATCH, nPRESET, nOUT, nINT and the ISR of each axis in a mask. The parameters begin at
+/// `first`.
 inline void set_actions(Module& it, AxisMask axes, const Command& command, std::size_t first) {
   for_each_axis(axes, [&](std::size_t a) {
     motion::SyncAction& action = it.chip.sync().actions[a];
@@ -72,7 +72,7 @@ inline Took set_action(Module& it, const Command& command) {
   set_actions(it, axes_at(command, 0), command, 1);
   return Took::done;
 }
-/// Sets C+ or C-, which ends the soft limits (7.3.6).
+/// Sets C+ or C-, which disables the soft limits (7.3.6).
 inline Took set_compare(Module& it, const Command& command) {
   for_each_axis(axes_at(command, 0), [&](std::size_t a) {
     AxisUnit& unit = it.chip.unit(a);
@@ -143,7 +143,7 @@ inline Took stop_axes(Module& it, const Command& command) {
   it.stops.halt(axes_at(command, 0), stop_row(command.verb()));
   return Took::done;
 }
-/// Stops the axes of the running interpolation; if none runs, those of AXIS_ASSIGN.
+/// Stops the axes of the running interpolation, or, if none is running, the axes of AXIS_ASSIGN.
 inline Took stop_path(Module& it, const Command& command) {
   const Paths& paths = it.chip.paths();
   AxisMask axes = paths.together.engaged ? paths.axes : mask_of_codes(paths.assigned);

@@ -22,7 +22,7 @@ namespace {
 using lang::Command;
 using lang::Verb;
 
-/// Returns the lowest axis of a mask, because a read names only one.
+/// Returns the lowest axis of a mask, because a read refers to a single axis.
 Cell cell_of_axes(const Command& command) {
   for (int a = 0; a < static_cast<int>(kAxes); ++a) {
     if (has(static_cast<AxisMask>(command.values[0]), static_cast<std::size_t>(a)))
@@ -35,7 +35,7 @@ template <Value (*shows)(const Module&, Cell)>
 std::int32_t read_axis(const Module& it, const Command& command) {
   return static_cast<std::int32_t>(shows(it, cell_of_axes(command)));
 }
-/// Reads one bit, selected by the second parameter.
+/// Reads one bit, which the second parameter selects.
 template <Value (*shows)(const Module&, Cell)>
 std::int32_t read_bit(const Module& it, const Command& command) {
   return static_cast<std::int32_t>(shows(it, cell_of_axes(command)) >> command.values[1] & 1);

@@ -23,7 +23,7 @@ namespace understudy::emulator::models::rs_m8194h {
 
 DeviceAnswer take_message(Module& it, Cell cell, std::span<const std::uint16_t> words) {
   if (it.chose(option("window_parts", "kept_for_the_command"))) {
-    // Parameters may have come before their command.
+    // Parameters may have arrived before their command.
     auto& all = it.state().parameters;
     std::copy(words.begin(), words.end(), all.begin() + cell.index);
     if (cell.index != 0) return Refusal::none;
@@ -34,7 +34,7 @@ DeviceAnswer take_message(Module& it, Cell cell, std::span<const std::uint16_t> 
   const bool is_low_first = it.memory.low_word_first() && !it.chose(option("word_order_scope", "tables"));
   const auto order = is_low_first ? lang::WordOrder::low_first : lang::WordOrder::high_first;
   lang::Decoded decoded = lang::decode(words, it.programs.state().rsm, order, it.language_options().lines);
-  // If so chosen, room is checked before parameters.
+  // A choice can check the room before the parameters.
   if (decoded.fault == lang::Fault::parameter && it.language_options().room_before_parameters) {
     const lang::Fault none_left = it.queue.why_no_room(decoded.command);
     if (none_left != lang::Fault::none) decoded.fault = none_left;

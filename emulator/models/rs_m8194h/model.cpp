@@ -25,7 +25,7 @@ namespace understudy::emulator::models::rs_m8194h {
 
 namespace {
 
-// 2.0 and 3.0: the versions of the manual's answers and of the manual itself.
+// 2.0 and 3.0: the versions of the manual's replies and of the manual itself.
 constexpr std::array<Firmware, 2> kFirmwares{200, 300};
 
 constexpr std::string_view kKnownLimitations[] = {

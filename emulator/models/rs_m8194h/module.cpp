@@ -76,8 +76,8 @@ void Module::update_outputs(Tick tick) {
   state_.eeprom.step(tick, state_.image);
 }
 
-/// Returns true if nothing happens at all, except for FRnet, pulses at OUT_X and OUT_Y, and values that wait
-/// to be stored.
+/// Returns true if nothing is happening, except for FRnet, pulses at OUT_X and OUT_Y, and values that are
+/// waiting to be stored.
 bool Module::rests() const {
   if (status.changes() || state_.touched || !queue.is_empty() || state_.fifo.stop_wait != 0) return false;
   if (state_.steps_left != language_options().steps_a_tick || !state_.marks.empty()) return false;
@@ -101,14 +101,14 @@ Tick Module::next_event_tick(Tick done, Tick max, const ClearTravel& ahead) cons
   Tick last = std::min(max, state_.eeprom.next_active_tick() - 1);
   last = std::min(last, frnet.next_active_tick(done) - 1);
   last = motion_step.quiet_until(done, last, ahead);
-  // A command in the FIFO waits for an axis to stop.
+  // A command in the FIFO is waiting for an axis to stop.
   if (!queue.is_empty() && chip.driving() == 0) return done + 1;
   return last + 1;
 }
 
 void Module::prefetch() const {
   for (std::size_t a = 0; a < kAxes; ++a) {
-    understudy::prefetch(&state_.motors[a], 2 * kCacheLine);  // everything that the middle of a move needs
+    understudy::prefetch(&state_.motors[a], 2 * kCacheLine);  // what ticks during a move need
     prefetch_line(&state_.environment[a]);
     prefetch_line(&state_.units[a].sent_pulses);
   }

@@ -1,8 +1,8 @@
-// RS-M8194H: the i-8094H module, which has the FIFO, the chip and the macros. Each of its parts has its own
-// state, and may use the parts above it in this list. Macros and the FIFO reach the parts below them only
-// through lang::Machine, which the module implements.
+// RS-M8194H: the i-8094H module, which contains the FIFO, the chip and the macros. Each of its parts has its
+// own state, and may use the parts above it in the list of members. Macros and the FIFO access the parts
+// below them only through lang::Machine, which the module implements.
 //
-//   a command ──> command_queue.h, or at once ──> commands.h: what it does to the parts
+//   a command ──> (command_queue.h) ──> commands.h: its effects on the parts
 //   a tick: the inputs ──> motion_step.h, with its edges (edges.h) ──> macros ──> the FIFO
 #pragma once
 
@@ -65,15 +65,15 @@ class Module final : public Part, private lang::Machine {
   State& state() { return state_; }
   const State& state() const { return state_; }
   bool is_absent() const { return input(kNoModuleSwitch) != 0; }
-  /// Executes a command now, or returns that it has to wait.
+  /// Executes a command now, or returns that it must wait.
   Took carry_out(const lang::Command& command) override;
 
   // --- time -------------------------------------------------------------------------------------
   void sample_inputs(Tick tick, bool inputs_changed);
   void step_motion(Tick tick) { motion_step.step(tick); }
   void update_outputs(Tick tick);
-  /// Return the next tick in which anything may change, and the next that must be run in full. Inputs are as
-  /// they were at `done`.
+  /// Return the next tick in which anything may change, and the next tick that must be run in full. They
+  /// assume that the inputs do not change after `done`.
   Tick next_active_tick(Tick done) const;
   Tick next_event_tick(Tick done, Tick max, const ClearTravel& ahead) const;
   void prefetch() const;
@@ -89,7 +89,7 @@ class Module final : public Part, private lang::Machine {
   void take_over(const State& restored);
 
  private:
-  /// Resets everything to its power-up value, except for the memory, the encoders' raw counts and the pulse
+  /// Resets everything to its power-up value, except the memory, the encoders' raw counts and the pulse
   /// counts of OUT_X and OUT_Y.
   void blank();
   void blank_module();

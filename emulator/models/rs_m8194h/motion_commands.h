@@ -1,4 +1,4 @@
-// RS-M8194H: the commands of counters, outputs, homing, single axes and paths (4 to 7.2, 7.4).
+// RS-M8194H: the commands for counters, outputs, homing, single axes and paths (4 to 7.2, 7.4).
 #pragma once
 
 #include "emulator/models/rs_m8194h/setting_commands.h"
@@ -31,9 +31,9 @@ inline Took frnet_write(Module& it, const Command& command) {
   return Took::done;
 }
 
-/// The kind of quantity, which determines the range of a number.
+/// The kind of a quantity, which determines its range.
 enum class Speed : std::uint8_t { other, speed, slope, jerk };
-/// Returns the value to store: as sent, or limited to the range that MAX_V gives it now.
+/// Returns the value to store: as sent, or limited to the range that follows from the present MAX_V.
 template <Speed kind>
 std::uint32_t within_range(const Module& it, std::uint32_t given, std::uint32_t max_v) {
   if (kind == Speed::other || it.chose(option("reclamp", "when_a_drive_starts"))) return given;
@@ -43,7 +43,7 @@ std::uint32_t within_range(const Module& it, std::uint32_t given, std::uint32_t 
   return static_cast<std::uint32_t>(std::clamp<double>(given, min, max));
 }
 
-/// Sets a number of the speed settings; it applies from the next drive on.
+/// Sets a number in the speed settings. It applies from the next drive on.
 template <auto member, Speed kind = Speed::other>
 Took set_speed(Module& it, const Command& command) {
   for_each_axis(axes_at(command, 0), [&](std::size_t a) {
@@ -54,7 +54,7 @@ Took set_speed(Module& it, const Command& command) {
   });
   return Took::done;
 }
-/// Gives homing the new speeds; it uses them from its next phase on.
+/// Updates the speeds of homing, which uses them from its next phase on.
 inline void update_homing(Module& it, std::size_t axis) {
   motion::Homing& homing = it.chip.motor(axis).homing;
   if (!homing.active()) return;
@@ -62,7 +62,7 @@ inline void update_homing(Module& it, std::size_t axis) {
   homing.program.speeds = {it.chip.law_of(axis),
                            law_at(unit, unit.homing.home_pps, it.machine_options().speed)};
 }
-/// Sets V, including for the running drive.
+/// Sets V, which also affects the running drive.
 inline Took set_drive_speed(Module& it, const Command& command) {
   for_each_axis(axes_at(command, 0), [&](std::size_t a) {
     AxisUnit& unit = it.chip.unit(a);
@@ -72,7 +72,7 @@ inline Took set_drive_speed(Module& it, const Command& command) {
   });
   return Took::done;
 }
-/// Sets a number of the path's speed settings, which have no axes.
+/// Sets a number in the path's speed settings, which do not belong to an axis.
 template <auto member>
 Took set_vector(Module& it, const Command& command) {
   auto& number = it.chip.paths().vector.*member;
@@ -108,7 +108,7 @@ Took drive(Module& it, const Command& command) {
   return it.drives.drive(axes_at(command, 0), {.what = what, .value = value});
 }
 
-/// SET_PULSE: changes the total of the running move, counted in its own direction (7.1.10, A-53).
+/// SET_PULSE: changes the total distance of the running move, counted in the move's direction (7.1.10, A-53).
 inline Took set_pulse(Module& it, const Command& command) {
   for_each_axis(axes_at(command, 0), [&](std::size_t a) {
     motion::Axis& motor = it.chip.motor(a);
@@ -133,8 +133,8 @@ inline Took axis_assign(Module& it, const Command& command) {
 
 inline Took path(Module& it, const Command& command) { return it.path_starts.follow(command); }
 
-/// INITIAL of a stream: stores the settings for all its CONTINUE commands. INITIAL waits while a stream runs
-/// (7.4.2, 7.4.5, 7.4.8).
+/// INITIAL of a stream: stores the settings for all its CONTINUE commands. INITIAL waits while a stream is
+/// running (7.4.2, 7.4.5, 7.4.8).
 template <Stream stream>
 Took initial(Module& it, const Command& command) {
   Paths& paths = it.chip.paths();
@@ -155,8 +155,8 @@ Took initial(Module& it, const Command& command) {
   return Took::done;
 }
 
-/// LINE_SCAN (7.4.12): stores the setting, which the next scan consumes. A scan uses C+, so the soft limits
-/// end.
+/// LINE_SCAN (7.4.12): stores the setting for the next scan, which consumes it. A scan uses C+, so the soft
+/// limits are disabled.
 inline Took line_scan(Module& it, const Command& command) {
   for_each_axis(axes_at(command, 0), [&](std::size_t a) {
     AxisUnit& unit = it.chip.unit(a);

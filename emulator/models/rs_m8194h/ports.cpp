@@ -18,7 +18,7 @@ namespace understudy::emulator::models::rs_m8194h {
 
 namespace {
 
-/// The pulse modes of 3.3.
+/// The pulse modes in 3.3.
 constexpr std::string_view kPulseFormats[] = {"CW/CCW rising",      "CW/CCW falling",
                                               "PULSE rising/DIR -", "PULSE falling/DIR -",
                                               "PULSE rising/DIR +", "PULSE falling/DIR +"};
@@ -33,8 +33,8 @@ bool Ports::output(int terminal) const {
   const State& state = module_.state();
   if (terminal < kFirstOut) return state.units[static_cast<std::size_t>(terminal - kFirstServo)].basic.servo;
   if (terminal >= kFirstDi) return false;
-  // At rest the pin has the level opposite to its pulses: outEdge 0 gives low pulses, and low does not
-  // conduct.
+  // At rest, the level of the pin is opposite to its pulses: outEdge 0 selects low pulses, and a low pin does
+  // not conduct.
   const OutSettings& out = state.units[static_cast<std::size_t>(terminal - kFirstOut)].out;
   return (out.level == 0) != (device_.now() < out.pulse_until);
 }

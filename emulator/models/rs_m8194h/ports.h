@@ -1,5 +1,5 @@
 // RS-M8194H: its terminals and axes, for the bench: the outputs that the module drives, and what the bench's
-// machine reports to it.
+// machine reports to the module.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// Power, RESET_CARD and LOAD_INITIAL, and what each of them keeps (3.2.1, 8).
+// Power, RESET_CARD and LOAD_INITIAL, and what each of them preserves (3.2.1, 8).
 #include <array>
 #include <cstddef>
 #include <utility>
@@ -61,7 +61,7 @@ void Module::power_up() {
   for (std::size_t a = 0; a < kAxes; ++a) {
     chip.rearm(a);
     motion::Axis& motor = chip.motor(a);
-    // Levels at power-up are not edges.
+    // The levels at power-up do not count as edges.
     motor.signals = chip.environment(a).at(motor.travel_pulses);
   }
 }

@@ -13,12 +13,12 @@ namespace understudy::interpreter::simple2 {
 
 enum class Decision : std::uint8_t {
   none,
-  jump,       // to its flag, or not
+  jump,       // jumps to its flag, or not
   condition,  // continues with the next line, or skips it
-  wait,       // is over at once, or waits
+  wait,       // ends at once, or waits
 };
 
-/// Decides by the mnemonic, because the manual names instructions by what they do.
+/// Determines the decision from the mnemonic, because the manual names instructions after what they do.
 constexpr Decision decision_of(std::string_view mnemonic) {
   if (mnemonic.starts_with("Wait_")) return Decision::wait;
   if (mnemonic.starts_with("Jump_") || mnemonic == "Loop") return Decision::jump;

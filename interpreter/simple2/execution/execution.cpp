@@ -34,7 +34,7 @@ Line without_flag(const Line& line) {
 
 bool holds(const Execution& execution) { return execution.held.command != 0; }
 
-/// Returns true if the current line waits and has been replaced in the meantime.
+/// Returns true if the current line is waiting and was replaced in the meantime.
 bool must_be_reread(const Execution& execution, const Program& program, const Dialect& dialect) {
   return dialect.rewritten_line == Dialect::RewrittenLine::reread && holds(execution) &&
          without_flag(program.line(execution.now_line)) != execution.held;
@@ -63,8 +63,7 @@ bool writes_what_is_read_only(const Line& line) {
   return false;
 }
 
-/// Returns true if the program ends because the line names something that does not exist, or that cannot be
-/// written.
+/// Returns true if the program ends because an operand of the line does not exist or cannot be written.
 bool ends_for_an_operand(const Line& line, const Dialect& dialect) {
   const bool by_operand = dialect.undefined_operand == Dialect::UndefinedOperand::ends;
   const bool by_parameter = dialect.undefined_parameter == Dialect::UndefinedParameter::ends;
@@ -80,7 +79,7 @@ bool ends_for_an_operand(const Line& line, const Dialect& dialect) {
          (is_wrong(instruction->data1, line.data1) || is_wrong(instruction->data2, line.data2));
 }
 
-/// Reports what the line has decided.
+/// Reports the decision of the line.
 void report_decision(ProgramWatch& watch, int number, const Line& line, Then then) {
   if (const auto outcome = outcome_of(decision_of(line.command), then)) {
     watch.decides(0, number, *outcome, 1);
@@ -128,7 +127,7 @@ void execute_line(Execution& execution, std::int64_t now_ms, const Program& prog
   }
 }
 
-/// Returns true if the next line has been executed and would only continue to wait, as long as the machine
+/// Returns true if the next line was already executed and would only continue to wait, as long as the machine
 /// does not change.
 bool would_wait_on(const Execution& execution, const Program& program, const Dialect& dialect,
                    const MachineView& machine) {
@@ -137,7 +136,7 @@ bool would_wait_on(const Execution& execution, const Program& program, const Dia
   if (!holds(execution) || must_be_reread(execution, program, dialect)) return false;
   const Line& line = line_to_run(execution, program, dialect);
   if (ends_for_an_operand(line, dialect)) return false;
-  // The line also waits for an axis that has begun to move in the meantime.
+  // The line also waits for an axis that began to move in the meantime.
   const bool all_noted = (execution.waits_for_a || !machine.moving_for_wait(Axis::a)) &&
                          (execution.waits_for_b || !machine.moving_for_wait(Axis::b));
   const bool notes = dialect.wait_cut_short != Dialect::WaitCutShort::line_is_over && !all_noted;
@@ -194,11 +193,11 @@ void step(Execution& execution, std::int64_t now_ms, const Program& program, con
       execution.waits_for_b = false;
       execution.held = {};
       if (next_line_runs_at_once) break;
-      return;  // the slot in which the end of the move is noticed still belongs to its line
+      return;  // the slot that detects the end of the move still belongs to the same line
   }
   const bool has_waited = std::exchange(execution.waits, false);
   execute_line(execution, now_ms, program, dialect, machine);
-  // Only a line that has waited passes its slot on, so at most two lines run in one slot.
+  // Only a line that has waited passes on its slot, so at most two lines run in a slot.
   if (has_waited && execution.running && !execution.waits && execution.phase == Phase::line) {
     execute_line(execution, now_ms, program, dialect, machine);
   }

@@ -1,4 +1,4 @@
-// Instructions that determine the next line: jumps, loops, delays, waits for an input.
+// Instructions that determine the next line: jumps, loops, delays, and waits for an input.
 #pragma once
 
 #include "interpreter/simple2/execution/step.h"

@@ -1,4 +1,4 @@
-// Instructions for the axes. Each exists three times: for A, for B and for both.
+// Instructions for the axes. Each instruction exists for A, for B and for both.
 #pragma once
 
 #include <algorithm>
@@ -44,7 +44,7 @@ inline void velocity_rpm(Step& step, Axis axis, std::int32_t rpm) {
       axis, static_cast<std::int32_t>(std::clamp<std::int64_t>(milli_rpm, INT32_MIN, INT32_MAX)));
 }
 
-// --- lines with these actions --------------------------------------------------------------------
+// --- instructions with these actions -------------------------------------------------------------
 
 template <Axes axes, void (*order)(Step&, Axis)>
 Then to_axes(Step& step) {
@@ -53,8 +53,8 @@ Then to_axes(Step& step) {
   return Then::next_line;
 }
 
-/// A single axis uses the parameter in DATA1. With both axes, A uses DATA1 and B uses DATA2, and both are
-/// read before either acts.
+/// An instruction for a single axis uses the parameter in DATA1. With both axes, A uses DATA1 and B uses
+/// DATA2; both are read before either axis acts.
 template <Axes axes, void (*order)(Step&, Axis, std::int32_t)>
 Then to_axes(Step& step) {
   const std::int32_t first = step.first_parameter();
@@ -64,7 +64,7 @@ Then to_axes(Step& step) {
   return Then::next_line;
 }
 
-/// DATA1 is the acceleration and DATA2 the deceleration; both axes share them.
+/// DATA1 is the acceleration and DATA2 the deceleration. If both axes are affected, they use the same values.
 template <Axes axes>
 Then ramps(Step& step) {
   const std::int32_t up_10ms = fitted(step.dialect, step.first_parameter(), 0, 3000);
@@ -110,7 +110,7 @@ inline bool wait_is_cut_short(const Execution& execution, const MachineView& mac
   return (execution.waits_for_a && machine.cut_short(Axis::a)) ||
          (execution.waits_for_b && machine.cut_short(Axis::b));
 }
-/// Returns true if that move was cut short and the line waits for a later move.
+/// Returns true if that move was cut short and the line is waiting for a later move.
 inline bool waits_on(const Execution& execution, const Dialect& dialect, const MachineView& machine) {
   return dialect.wait_cut_short == Dialect::WaitCutShort::waits_on && wait_is_cut_short(execution, machine);
 }

@@ -1,5 +1,5 @@
-// Instructions that calculate and compare, in 32 bits with a sign. The dialect determines what happens to a
-// result beyond 32 bits and how a quotient is rounded; a division by zero gives 0.
+// Instructions that calculate and compare, with signed 32-bit numbers. The dialect determines what happens to
+// a result beyond 32 bits and how a quotient is rounded. Dividing by zero results in 0.
 #pragma once
 
 #include <algorithm>
@@ -10,10 +10,10 @@ namespace understudy::interpreter::simple2 {
 
 using Number = std::int32_t;
 
-/// 64 bits hold every result of two 32-bit numbers, INT32_MIN / -1 included.
+/// 64 bits can hold the result of any operation on two 32-bit numbers, including INT32_MIN / -1.
 using Result = std::int64_t;
 
-/// Returns a result as 32 bits store it.
+/// Returns a result as it is stored in 32 bits.
 constexpr Number kept(const Dialect& dialect, Result result) {
   if (dialect.overflow == Dialect::Overflow::saturates) {
     return static_cast<Number>(std::clamp<Result>(result, INT32_MIN, INT32_MAX));
@@ -55,7 +55,7 @@ Then into_calc_register(Step& step) {
   return Then::next_line;
 }
 
-/// Sets DATA1 to a function of itself.
+/// Sets DATA1 to a function of DATA1.
 template <Result (*operation)(Number)>
 Then change(Step& step) {
   step.machine.set_parameter(step.line.data1, kept(step.dialect, operation(step.first_parameter())));

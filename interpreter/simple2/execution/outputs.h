@@ -98,7 +98,7 @@ inline Then set_timer(Step& step, std::int32_t value) {
 inline Then timer_reset(Step& step) { return set_timer(step, 0); }
 inline Then timer_value(Step& step) { return set_timer(step, step.second_parameter()); }
 
-/// Timers have 32 unsigned bits, and so do their limits, unless a choice says otherwise.
+/// Timers and their limits are unsigned 32-bit numbers, unless a choice says otherwise.
 template <int timer>
 Then jump_timer_reached(Step& step) {
   if (timer == 1 && step.dialect.quirk_jump_timer1_does_not_work) {

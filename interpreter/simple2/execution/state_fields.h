@@ -1,4 +1,4 @@
-// The state fields of a program and its run (base/state/fields.h), in the order of the bytes.
+// The state fields of a program and its execution (base/state/fields.h), in the order of the saved bytes.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace understudy::interpreter::simple2 {
 
-/// The parts of a program that describe its differences from another one.
+/// The parts of a program that describe how it differs from another program.
 struct ReportedProgram {
   Lines lines{};
   FlagRules flag_rules{};
@@ -78,7 +78,7 @@ struct StateOf<interpreter::simple2::Execution> {
   static void check(const Value& execution);
 };
 
-/// A program's lines, and the flags that do not follow from them.
+/// The lines of a program, and the flags that the lines do not determine.
 template <>
 struct StateOf<interpreter::simple2::ReportedProgram> {
   using Value = interpreter::simple2::ReportedProgram;

@@ -1,4 +1,4 @@
-// The argument and the result of an instruction.
+// The argument and the result of an instruction's action.
 #pragma once
 
 #include <string_view>
@@ -8,7 +8,7 @@
 
 namespace understudy::interpreter::simple2 {
 
-/// The place where the program continues after a line.
+/// Where the program continues after a line.
 enum class Then : std::uint8_t {
   next_line,
   line_after_next,
@@ -28,15 +28,15 @@ struct Step {
   const Dialect& dialect;
   Machine& machine;
 
-  /// Return the parameters that DATA1 and DATA2 name.
+  /// Return the parameters whose numbers are in DATA1 and DATA2.
   std::int32_t first_parameter() const { return machine.parameter(line.data1); }
   std::int32_t second_parameter() const { return machine.parameter(line.data2); }
-  /// Returns true for a jump to an impossible flag, if a choice makes that a line without effect.
+  /// Returns true for a jump to an impossible flag, if a choice ignores such jumps.
   bool is_void_jump() const {
     const bool is_flag = line.data1 >= 1 && line.data1 <= kFlagCount;
     return !is_flag && dialect.undefined_flag == Dialect::UndefinedFlag::line_void;
   }
-  /// Returns the line of the flag. "If no line has the flag, the target is line 0."
+  /// Returns the line that has the flag, or line 0 if none has it, as in the manual.
   int flag_line() const { return program.line_with_flag(line.data1).value_or(0); }
 };
 

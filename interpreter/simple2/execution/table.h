@@ -19,7 +19,7 @@ inline constexpr auto kOpcodes = [] {
   return all;
 }();
 
-/// The action of each opcode; null if the manual lists no such instruction.
+/// The action of each opcode; null if the manual does not define the opcode.
 inline constexpr CompleteTable<std::uint8_t, Action> kActions(kOpcodes, kFlowActions, kOutputActions,
                                                               kNumberActions, kMotionActions);
 

@@ -17,7 +17,7 @@ namespace {
 using motion::Comparator;
 using motion::Counter;
 
-/// Makes a counter wrap in its ring again after a count from outside the ring has entered it.
+/// Makes a counter wrap in its ring again, after a count that was outside the ring has entered it.
 void enter_ring(Counter& counter, const BasicSettings& settings, std::int64_t travel, std::int64_t came) {
   if (!settings.ring || counter.range == Counter::Range::ring) return;
   const std::int64_t count = counter.at(travel);
@@ -28,7 +28,7 @@ void enter_ring(Counter& counter, const BasicSettings& settings, std::int64_t tr
   if (has_entered) set_count(counter, settings, count, travel, true);
 }
 
-/// Changes the range of a counter, and keeps its count.
+/// Changes the range of a counter without changing its count.
 void set_range(Counter& counter, const BasicSettings& settings, std::int64_t travel, bool ring_folds) {
   const std::int64_t count = counter.at(travel);
   counter.ring_top = settings.ring ? settings.ring_top : 0;
@@ -39,7 +39,7 @@ motion::Reaction limit_reaction(const BasicSettings& basic) {
   return basic.limit_stop_mode == 1 ? motion::Reaction::slow_down : motion::Reaction::stop_at_once;
 }
 
-/// Returns how many edges make one count (3.10): the chip counts all edges of both lines, all edges of one
+/// Returns how many edges make up one count (3.10): the chip counts all edges of both lines, all edges of one
 /// line, or only rising edges. Up and down pulses are not divided.
 std::int64_t divider_of(const BasicSettings& basic) {
   const bool is_quadrature = basic.encoder_mode == 0 || basic.encoder_mode == 2;
@@ -123,7 +123,7 @@ void set_external_levels(AxisUnit& axis) {
 
 void update_encoder(AxisUnit& axis, motion::Axis& motor, std::int64_t raw_count) {
   if (!axis.has_encoder) {
-    // The encoder continues from the count that the pulses have reached.
+    // The encoder continues at the count that the pulses have reached.
     const std::int32_t count = encoder_count(axis, motor);
     axis.has_encoder = true;
     axis.encoder_zero = axis.encoder_raw;
@@ -157,7 +157,7 @@ void apply_basic(AxisUnit& axis, motion::Axis& motor, const BasicSettings& setti
   const bool counts_otherwise =
       before.encoder_mode != settings.encoder_mode || before.encoder_division != settings.encoder_division;
   if (axis.has_encoder && counts_otherwise) {
-    // The new setting applies from here on; the present count stays.
+    // The new setting applies from here on; the present count does not change.
     const std::int32_t count = encoder_count(axis, motor);
     axis.encoder_zero = axis.encoder_raw;
     motor.set_encoder(0);
@@ -206,8 +206,8 @@ void arm(const AxisUnit& axis, motion::Axis& motor, motion::Events asked, const 
   const bool applies = options.homing_obeys_soft_limits || !motor.homing.active();
   if (axis.basic.soft_limits && applies) {
     const Counter& counter = axis.basic.soft_limit_source == 0 ? axis.logic : axis.encoder;
-    // Use the present difference between count and position; the offset itself may be off by whole turns of
-    // the counter.
+    // Use the present difference between count and position, because the offset itself may differ by whole
+    // turns of the counter.
     const std::int64_t place = by_encoder ? motor.encoder_pulses : motor.travel_pulses;
     const std::int64_t ahead = place - counter.at(place);
     changed.soft_limits_of = by_encoder ? motion::Count::encoder : motion::Count::command;
@@ -228,7 +228,7 @@ motion::EncoderLine encoder_line(const AxisUnit& axis, motion::EncoderLine machi
 std::uint16_t di_all_word(const AxisUnit& axis, bool emergency_is_on, bool is_driving, UpperBits upper) {
   const auto is_on = [&](Pin pin) { return (axis.pins.passed & bit_of(pin)) != 0; };
   const BasicSettings& basic = axis.basic;
-  // IN3 has no setting of its active level.
+  // There is no setting for the active level of IN3.
   const auto upper_bit = [&](Pin pin, std::uint8_t level_setting) {
     return upper == UpperBits::line_levels ? !is_on(pin) : is_active(is_on(pin), level_setting);
   };
@@ -251,7 +251,7 @@ std::uint16_t di_all_word(const AxisUnit& axis, bool emergency_is_on, bool is_dr
 
 std::uint16_t di_signal_word(const AxisUnit& axis) {
   const auto is_on = [&](Pin pin) { return (axis.pins.passed & bit_of(pin)) != 0; };
-  // IN0 to IN3 are 0 while on, the others 1 (12.5.4).
+  // IN0 to IN3 are 0 while on, the other bits are 1 while on (12.5.4).
   const bool bits[] = {!is_on(Pin::near_home),  !is_on(Pin::home),         !is_on(Pin::index),
                        !is_on(Pin::in3),        is_on(Pin::external_plus), is_on(Pin::external_minus),
                        is_on(Pin::in_position), is_on(Pin::alarm)};

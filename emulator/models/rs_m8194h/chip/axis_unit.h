@@ -42,7 +42,7 @@ constexpr std::uint16_t bit_of(ErrorBit bit) {
   return static_cast<std::uint16_t>(1U << static_cast<unsigned>(bit));
 }
 
-/// The factors that call an ISR, nINT 0 to 7 (7.3.12), and the two others that inputs 138 and 139 show.
+/// The factors that call an ISR, nINT 0 to 7 (7.3.12), and two others that inputs 138 and 139 show.
 enum class Factor : std::uint8_t {
   pulse,
   at_least_minus,  // P >= C-
@@ -58,7 +58,7 @@ enum class Factor : std::uint8_t {
 inline constexpr std::size_t kIsrFactors = 8;
 inline constexpr std::size_t kFactors = 10;
 
-/// The events that are factors of interrupts, in the order of nINT (7.3.12).
+/// The events that are interrupt factors, in the order of nINT (7.3.12).
 inline constexpr std::array<motion::Event, kIsrFactors> kFactorEvents{motion::Event::pulse,
                                                                       motion::Event::comparator_3,
                                                                       motion::Event::comparator_2,
@@ -68,14 +68,14 @@ inline constexpr std::array<motion::Event, kIsrFactors> kFactorEvents{motion::Ev
                                                                       motion::Event::constant_started,
                                                                       motion::Event::ended};
 
-/// Returns the error bit of a cause that ends a motion or keeps it from beginning (drives/ends.cpp).
+/// Returns the error bit for a cause that ends a motion or prevents it from beginning (drives/ends.cpp).
 std::uint16_t error_of(motion::Cause cause);
 
-/// The activity of an axis.
+/// What an axis is doing.
 enum class Activity : std::uint8_t { idle, single, path, homing };
 inline constexpr std::size_t kActivities = 4;
 
-/// A drive of one axis, as a command requests it.
+/// A drive of one axis, as requested by a command.
 struct Drive {
   enum class What : std::uint8_t { none, fixed, absolute, endless, home, scan };
   What what = What::none;
@@ -84,7 +84,7 @@ struct Drive {
   bool operator==(const Drive&) const = default;
 };
 
-/// C+ or C-: a value and the counter that it is compared with (7.3.6).
+/// C+ or C-: a value, and the counter with which it is compared (7.3.6).
 struct Compare {
   std::int32_t value = 0;
   std::uint8_t source = 0;  // 0 LP, 1 EP
@@ -92,11 +92,11 @@ struct Compare {
   bool operator==(const Compare&) const = default;
 };
 
-/// The output of an activated axis, which motion/synchronous.h does not cover (7.3.5).
+/// The output settings of an activated axis, which motion/synchronous.h does not include (7.3.5).
 struct OutSettings {
   std::uint8_t level = 0;       // outEdge
   std::uint8_t width_code = 0;  // PulseWidth
-  std::int64_t pulses = 0;      // pulses output so far
+  std::int64_t pulses = 0;      // number of pulses output so far
   Tick pulse_until = 0;         // end of the last pulse, if it is a millisecond long or more
 
   bool operator==(const OutSettings&) const = default;
@@ -109,11 +109,11 @@ constexpr std::int64_t after(std::int64_t at_ns, double takes_s) {
   return at_ns + static_cast<std::int64_t>(whole_ns);
 }
 
-/// Input levels behind the input filter, which passes a level only after some time (3.14).
+/// Input levels behind the input filter, which passes a level only after a delay (3.14).
 struct FilteredPins {
-  std::uint16_t raw = 0;                  // as at the terminals; a bit is 1 while conducting
-  std::uint16_t passed = 0;               // as the chip sees them, after the filter
-  std::array<Tick, kPinsOfAxis> since{};  // when a raw bit last changed
+  std::uint16_t raw = 0;                  // levels at the terminals; a bit is 1 while conducting
+  std::uint16_t passed = 0;               // levels after the filter, as the chip sees them
+  std::array<Tick, kPinsOfAxis> since{};  // the last change of each raw bit
 
   bool operator==(const FilteredPins&) const = default;
 };
@@ -126,29 +126,29 @@ struct AxisUnit {
   motion::Counter absolute{};
   motion::Counter encoder{};  // counts the travel, or the bench's encoder if there is one
   bool has_encoder = false;
-  std::int64_t encoder_raw = 0;   // the bench's encoder, in edges
+  std::int64_t encoder_raw = 0;   // count of the bench's encoder, in edges
   std::int64_t encoder_zero = 0;  // raw count at which the divided count was 0
   std::int64_t sent_pulses = 0;   // pulses of the last tick
   std::uint16_t error_code = 0;
-  std::uint16_t met = 0;              // error bits of the causes for which the path is slowing down
+  std::uint16_t met = 0;              // error bits for the causes because of which the path is slowing down
   bool locked = false;                // locked by STOP_*
   bool path_locked = false;           // locked by VSTOP_*
   bool held = false;                  // held by DRV_HOLD
-  Drive held_drive{};                 // waits for DRV_START, or for its axis to stop
-  Drive paused_drive{};               // continues after a trigger's pause
-  std::int64_t paused_to_pulses = 0;  // travel at which that drive ends, if it does
+  Drive held_drive{};                 // the drive that waits for DRV_START, or for its axis to stop
+  Drive paused_drive{};               // the drive that continues after a trigger's pause
+  std::int64_t paused_to_pulses = 0;  // travel at which the paused drive ends, if it ends
   FilteredPins pins{};
   bool emergency = false;  // the EMG input, after its filter
   motion::ExternalDrive external{};
   std::int64_t began_pulses = 0;                 // travel at the beginning of the last drive
-  std::uint32_t external_pps = 0;                // speed of EXD_CP
+  std::uint32_t external_pps = 0;                // the speed of EXD_CP
   std::array<std::uint32_t, 2> external_seen{};  // edges of EXP+ and EXP- seen so far
-  std::int64_t external_waiting = 0;  // pulses of edges that came after the last drive's pulses had been sent
+  std::int64_t external_waiting = 0;  // pulses for edges that came after the last drive's last pulse
   std::int64_t external_free_ns = 0;  // end of the last drive's pulses; 0: it was not a move by edges
   std::array<Compare, 2> compare{};   // C+, C-
   std::uint8_t factors = 0;           // INTFACTOR_ENABLE, one bit per nINT
   std::array<std::uint8_t, kIsrFactors> isr_of{};
-  std::uint8_t action_isr = 0;  // ISR of its action set
+  std::uint8_t action_isr = 0;  // the ISR in its action set
   OutSettings out{};
   std::int32_t latched = 0;
 
@@ -156,47 +156,48 @@ struct AxisUnit {
 };
 
 SpeedRange range_of(const AxisUnit& axis, const SpeedRules& rules);
-/// Returns the law of a drive at a speed other than V.
+/// Returns the speed law of a drive at a speed other than V.
 motion::SpeedLaw law_at(const AxisUnit& axis, std::uint32_t drive_pps, const SpeedRules& rules);
 motion::SpeedLaw law_of(const AxisUnit& axis, const SpeedRules& rules);
 
-/// Returns the travel that EP counts: that of the bench's encoder, or the pulses themselves.
+/// Returns the travel that EP counts: that of the bench's encoder, or that of the pulses themselves.
 std::int64_t encoder_travel(const AxisUnit& axis, const motion::Axis& motor);
-/// Return the three counters.
+/// These return the three counters.
 std::int32_t logic_count(const AxisUnit& axis, const motion::Axis& motor);
 std::int32_t absolute_count(const AxisUnit& axis, const motion::Axis& motor);
 std::int32_t encoder_count(const AxisUnit& axis, const motion::Axis& motor);
-/// Sets LP or EP. A count beyond the ring wraps into it if `ring_folds`; otherwise it stays, in 32 bits,
-/// until it enters the ring.
+/// Sets LP or EP. A count beyond the ring wraps into it if `ring_folds`; otherwise, it remains as a 32-bit
+/// count until it enters the ring.
 void set_count(motion::Counter& counter, const BasicSettings& settings, std::int64_t count,
                std::int64_t travel, bool ring_folds);
 void set_logic_position(AxisUnit& axis, motion::Axis& motor, std::int32_t value, bool ring_folds);
 void set_absolute_position(AxisUnit& axis, motion::Axis& motor, std::int32_t value, bool ring_folds);
 void set_encoder_position(AxisUnit& axis, motion::Axis& motor, std::int32_t value, bool ring_folds);
-/// Returns true if a count is beyond its ring, as one choice allows until it enters the ring.
+/// Returns true if a count is outside its ring, which a choice allows until the count enters the ring.
 bool is_beyond_ring(const AxisUnit& axis);
 void enter_ring(AxisUnit& axis, const motion::Axis& motor);
-/// Sets the levels of EXP+ and EXP- by the edges seen so far: a line is low after each odd edge.
+/// Sets the levels of EXP+ and EXP- from the number of edges seen so far: a line is low after each odd edge.
 void set_external_levels(AxisUnit& axis);
-/// Sets the bench's encoder to this count of edges.
+/// Updates the bench's encoder to this count of edges.
 void update_encoder(AxisUnit& axis, motion::Axis& motor, std::int64_t raw_count);
 
 /// Applies the basic settings, including to a running motion.
 void apply_basic(AxisUnit& axis, motion::Axis& motor, const BasicSettings& settings,
                  const AxisOptions& options);
-/// Arms the motor's limits and comparators. Call it again whenever a counter, a limit or a comparator is set.
-/// `asked` contains the events that are in use.
+/// Arms the motor's limits and comparators. Call this again whenever a counter, a limit or a comparator is
+/// set. `asked` contains the events that are in use.
 void arm(const AxisUnit& axis, motion::Axis& motor, motion::Events asked, const AxisOptions& options);
-/// Returns EP as a function of the travel, by the axis's settings, for a machine with the given encoder line.
+/// Returns EP as a function of the travel, with the settings of the axis, for a machine with this encoder
+/// line.
 motion::EncoderLine encoder_line(const AxisUnit& axis, motion::EncoderLine machine);
 
-/// The choice for bits 5 to 9 of DI_ALL: the levels of the lines, or whether they are active by their
-/// settings.
+/// A choice: bits 5 to 9 of DI_ALL contain either the levels of the lines, or whether the inputs are active
+/// according to their settings.
 enum class UpperBits : std::uint8_t { line_levels, active };
 /// Return DI_ALL (4.6.2) and DI_SIGNAL (4.7.2).
 std::uint16_t di_all_word(const AxisUnit& axis, bool emergency_is_on, bool is_driving, UpperBits upper);
 std::uint16_t di_signal_word(const AxisUnit& axis);
-/// Returns true if a pin is at the level that a setting calls active: 0 is low, and "on" is low.
+/// Returns true if a pin is at the active level according to its setting: 0 is low, and "on" is low.
 constexpr bool is_active(bool is_on, std::uint8_t level_setting) { return is_on == (level_setting == 0); }
 
 }  // namespace understudy::emulator::models::rs_m8194h

@@ -69,7 +69,7 @@ std::uint16_t Chip::error_code(std::size_t axis) const {
 
 void Chip::connect_encoder(std::size_t axis, std::int64_t counts) {
   AxisUnit& unit = state_.units[axis];
-  unit.encoder_raw = counts * machine_options().edges_per_encoder_count;  // EP counts from here
+  unit.encoder_raw = counts * machine_options().edges_per_encoder_count;  // EP counts from this value
   if (unit.has_encoder) unit.encoder_zero = unit.encoder_raw;
   set_encoder(axis, counts);
 }
@@ -83,7 +83,7 @@ void Chip::set_encoder(std::size_t axis, std::int64_t counts) {
 void Chip::give_pulse(std::size_t axis, Tick tick, std::int64_t pulses) {
   // SET_OUT supports only X and Y (7.3.9).
   if (axis >= static_cast<std::size_t>(kOuts)) return;
-  // The pulse widths in whole ticks; shorter pulses are only counted.
+  // The pulse widths in whole ticks. Shorter pulses are only counted.
   static constexpr std::array<Tick, 8> kWidths{0, 0, 0, 0, 1, 2, 10, 20};
   OutSettings& out = state_.units[axis].out;
   out.pulses += pulses;
@@ -93,7 +93,7 @@ void Chip::give_pulse(std::size_t axis, Tick tick, std::int64_t pulses) {
 // --- power and RESET_CARD ---------------------------------------------------------------------------------
 
 void Chip::blank_axis(std::size_t axis, const BasicSettings& basic) {
-  // The motor keeps its position, and so does the bench's encoder.
+  // The motor and the bench's encoder keep their positions.
   motion::Axis& motor = state_.motors[axis];
   const std::int64_t travel_pulses = motor.travel_pulses;
   const AxisUnit before = state_.units[axis];

@@ -1,5 +1,5 @@
-// RS-M8194H: the motion chip with its four axes: motors, counters, pins behind their filters, signals that
-// the motors watch and meet, the path that carries some of them, and the outputs of X and Y.
+// RS-M8194H: the motion chip with its four axes. It contains motors, counters, pins behind their filters, the
+// signals that affect the motors, the path that carries some of the motors, and the outputs of X and Y.
 #pragma once
 
 #include <array>
@@ -28,8 +28,8 @@ struct LineScan {
   std::int32_t pitch = 0;
   bool running = false;
   std::int64_t begin = 0;      // travel at which it began
-  std::int64_t triggered = 0;  // trigger positions passed
-  // The settings of SET_OUT for its pin.
+  std::int64_t triggered = 0;  // how many trigger positions were passed
+  // The SET_OUT settings of its pin before the scan.
   std::uint8_t level_before = 0;
   std::uint8_t width_before = 0;
 
@@ -43,7 +43,7 @@ struct ChipState {
   motion::SyncTable sync{};
   Paths paths{};
   std::array<LineScan, kAxes> scans{};
-  AxisMask scanning = 0;         // axes of LINE_SCAN_START
+  AxisMask scanning = 0;         // axes in LINE_SCAN_START
   bool holds_back = false;       // a filter holds back the level of an input
   bool emergency_input = false;  // EMG is active, before the filters
   Tick emergency_since = 0;      // when that last changed
@@ -74,7 +74,7 @@ class Chip final : public Part {
   AxisMask driving() const;
   /// Returns the signed speed of an axis.
   double speed_pps(std::size_t axis) const;
-  /// Returns the law of a drive of single axes.
+  /// Returns the speed law for drives of single axes.
   motion::SpeedLaw law_of(std::size_t axis) const;
   bool is_active(std::size_t axis, motion::Signal signal) const;
   /// Adds causes of a stop to ERROR_CODE.
@@ -89,12 +89,12 @@ class Chip final : public Part {
   /// Returns true while a filter holds back the level of an input.
   bool is_filtering(std::size_t axis) const;
   bool holds_back() const { return state_.holds_back; }
-  /// Lets all levels pass, as at power-up.
+  /// Passes all levels immediately, as at power-up.
   void pass_all_pins();
-  /// Updates the signals that the motor meets. Call it after inputs or their settings have changed.
+  /// Updates the signals that affect the motor. Call this after inputs or their settings have changed.
   void update_environment(std::size_t axis);
-  /// Updates the limits and comparators that the motor watches, and the signals that it meets. Call it after
-  /// a setting or a counter has changed.
+  /// Updates the limits and comparators of the motor, and the signals that affect it. Call this after a
+  /// setting or a counter has changed.
   void rearm(std::size_t axis);
   void rearm_all();
   /// Sets the positions at which a machine's inputs change.
@@ -108,7 +108,8 @@ class Chip final : public Part {
   void give_pulse(std::size_t axis, Tick tick, std::int64_t pulses = 1);
 
   // --- power and RESET_CARD ----------------------------------------------------------------------
-  /// Resets everything except positions, pins and the bench's encoder, with these settings of section 3.
+  /// Resets everything except positions, pins and the bench's encoder, and applies these settings of section
+  /// 3.
   void blank(const std::array<BasicSettings, kAxes>& basic);
   void keep_counters_of(const ChipState& before);
   void keep_settings_of(const ChipState& before);
@@ -117,8 +118,8 @@ class Chip final : public Part {
   void blank_axis(std::size_t axis, const BasicSettings& basic);
 
   ChipState& state_;
-  // Not state: set again after a restore. Allocated separately, because a tick reads it only after an input
-  // has changed.
+  // Not part of the state, because it is set again after a restore. It is allocated separately, because a
+  // tick reads it only after an input has changed.
   const std::unique_ptr<std::array<MachineEdges, kAxes>> edges_ =
       std::make_unique<std::array<MachineEdges, kAxes>>();
 };

@@ -97,7 +97,7 @@ int Interrupts::isr_of(const IsrMark& mark) const {
   return language_options().isrs_are_bound_at_the_event ? mark.number : bound_isr(mark);
 }
 
-/// Returns the ISR that a mark calls, from what is bound and enabled now; 0: none.
+/// Returns the ISR that a mark calls, according to what is bound and enabled now; 0: none.
 int Interrupts::bound_isr(const IsrMark& mark) const {
   const AxisUnit& unit = chip_.unit(mark.axis);
   if (mark.source == IsrMark::kCalled) return mark.number;

@@ -1,5 +1,5 @@
-// RS-M8194H: events for hosts and macros: RINT_STATE, the factors of the axes, and interrupts that wait for
-// their ISR (4.15, 4.16, 7.3.12).
+// RS-M8194H: events for hosts and macros: RINT_STATE, the factors of the axes, and interrupts that are
+// waiting for their ISRs (4.15, 4.16, 7.3.12).
 #pragma once
 
 #include <array>
@@ -17,10 +17,10 @@
 
 namespace understudy::emulator::models::rs_m8194h {
 
-/// The largest number of interrupts that can wait, if they are counted.
+/// The maximum number of waiting interrupts, if they are counted.
 inline constexpr std::size_t kMaxMarks = 256;
 
-/// An interrupt that waits for its ISR.
+/// An interrupt that is waiting for its ISR.
 struct IsrMark {
   static constexpr std::uint8_t kSynchronous = 8;
   static constexpr std::uint8_t kCalled = 9;  // MP_ISR_CALL
@@ -28,7 +28,7 @@ struct IsrMark {
   Tick tick = 0;
   std::uint8_t axis = 0;
   std::uint8_t source = 0;  // nINT 0 to 7, or one of the above
-  std::uint8_t number = 0;  // number of the ISR that was called, or was bound at the event
+  std::uint8_t number = 0;  // the ISR that was called, or that was bound at the time of the event
 
   auto operator<=>(const IsrMark&) const = default;
 };
@@ -54,7 +54,7 @@ constexpr std::uint8_t name_of_source(std::size_t axis, std::uint8_t source) {
 }
 
 struct InterruptState {
-  std::uint8_t rint = 0;    // without bit 6, which follows from the error codes
+  std::uint8_t rint = 0;    // without bit 6, which depends on the error codes
   bool interrupts = false;  // ENABLE_INT
   std::array<AxisMask, kFactors> factor_axes{};
   std::vector<IsrMark> marks{};
@@ -76,18 +76,18 @@ class Interrupts final : public Part {
   void raise(Rint bit) { state_.rint |= bit_of(bit); }
   void clear(Rint bit) { state_.rint &= static_cast<std::uint8_t>(~bit_of(bit)); }
 
-  /// Handles events of an axis that are factors: notes them, and marks the ISRs that they call.
+  /// Handles the events of an axis that are factors: records them, and marks the ISRs that they call.
   void check_factors(std::size_t axis, motion::Events events, Tick tick, std::int64_t pulses = 0);
-  /// Handles the interrupt of an axis's synchronous action, which is noted for `noted_axis`.
+  /// Handles the interrupt of an axis's synchronous action, which is recorded for `noted_axis`.
   void on_synchronous(std::size_t axis, std::size_t noted_axis, Tick tick);
-  /// Records an event of an axis for the factors.
+  /// Records an axis event for the factors.
   void note_factor(std::size_t axis, Factor factor);
   void forget_factor(std::size_t axis, std::size_t factor);
-  /// Records the order in which sources of ISRs were enabled.
+  /// Records the order in which ISR sources were enabled.
   void note_enabled(std::size_t axis, std::uint8_t source, bool is_on);
   /// Marks an ISR that a command calls.
   void call(int number);
-  /// Returns true if a mark's turn has come.
+  /// Returns true if the ISR of a mark should run now.
   bool is_due() const;
   IsrMark take_mark();
   void forget_marks() { state_.marks.clear(); }

@@ -1,4 +1,4 @@
-// RS-M8194H: interpolation, as a value. One group of axes at a time follows a path (7.2, 7.4).
+// RS-M8194H: interpolation as a value. One group of axes at a time follows a path (7.2, 7.4).
 #pragma once
 
 #include <array>
@@ -12,11 +12,11 @@
 
 namespace understudy::emulator::models::rs_m8194h {
 
-/// The kinds of streams, each with its own INITIAL and CONTINUE.
+/// The kinds of streams, each with its own INITIAL and CONTINUE commands.
 enum class Stream : std::uint8_t { line_2d, line_3d, mix_2d };
 inline constexpr std::size_t kStreams = 3;
 
-/// The settings of an INITIAL, for all CONTINUE commands of its kind.
+/// The settings from an INITIAL, for all CONTINUE commands of its kind.
 struct StreamSettings {
   bool given = false;
   std::array<std::uint8_t, 3> axes{};  // axis codes; 0: none
@@ -33,7 +33,7 @@ struct Paths {
 
   motion::Coordinated together{};
   Runs runs = Runs::nothing;
-  Stream stream = Stream::line_2d;  // valid while `runs` or `open` says that a stream is active
+  Stream stream = Stream::line_2d;  // valid only if `runs` or `open` is true
   bool open = false;        // the last segment of the stream has not arrived; the stream may have starved
   std::uint8_t broken = 0;  // streams that were broken off, as bits by Stream, until they begin again
   AxisMask axes = 0;        // axes of the running path
@@ -41,19 +41,19 @@ struct Paths {
   SpeedSettings vector{};                  // set by VECTOR_SPEED and VSV to VAO
   std::array<StreamSettings, kStreams> streams{};
   std::array<double, 4> end{};  // end of the queued paths, in pulses from where they began
-  std::int8_t constant_axis = motion::Coordinated::kNone;  // if so chosen: axis1 of a path at constant speed
+  std::int8_t constant_axis = motion::Coordinated::kNone;  // axis1 of a path at constant speed (a choice)
 
   bool operator==(const Paths&) const = default;
 
   bool is_driving(std::size_t axis) const { return together.takes(axis); }
 };
 
-/// Returns the bit of a kind of stream in Paths::broken.
+/// Returns the bit of a stream kind in Paths::broken.
 constexpr std::uint8_t bit_of(Stream stream) {
   return static_cast<std::uint8_t>(1U << static_cast<unsigned>(stream));
 }
 
-/// Returns the axes of a list of axis codes.
+/// Returns the axes in a list of axis codes.
 constexpr AxisMask mask_of_codes(const std::array<std::uint8_t, 3>& codes) {
   return static_cast<AxisMask>((codes[0] | codes[1] | codes[2]) & kAllAxes);
 }

@@ -20,7 +20,7 @@ namespace understudy::emulator::models::rs_m8194h {
 
 namespace {
 
-/// The delay of a filter in whole ticks, by FLn; delays below 1.024 ms count as none (3.14).
+/// The delay of a filter in whole ticks, by FLn. Delays below 1.024 ms count as no delay (3.14).
 constexpr std::array<Tick, 8> kFilterTicks{0, 0, 0, 1, 2, 4, 8, 16};
 /// The bit of FEn that filters a pin, in the order of Pin.
 constexpr std::array<std::uint8_t, kPinsOfAxis> kFilterBits{0, 0, 0, 0, 1, 4, 3, 3, 2, 2};
@@ -32,7 +32,7 @@ Tick filter_ticks(const AxisUnit& unit, int pin, const MachineOptions& options) 
   return std::max<Tick>(kFilterTicks[unit.basic.filter_time], options.short_filters_take_a_tick ? 1 : 0);
 }
 
-/// A pin, and the signal that it gives the motor.
+/// A pin, and the motor signal that it controls.
 struct PinFunction {
   Pin pin;
   motion::Signal signal;
@@ -48,7 +48,7 @@ constexpr PinFunction kFunctions[] = {
     {Pin::alarm, motion::Signal::alarm},
 };
 
-/// Returns whether a pin is active while on, or nothing if it is ignored.
+/// Returns true if a pin is active while on, false if it is active while off, or nothing if it is ignored.
 std::optional<bool> active_while_on(const BasicSettings& basic, Pin pin, const MachineOptions& options) {
   switch (pin) {
     case Pin::limit_plus: return basic.forward_limit_level == 0;
@@ -56,7 +56,7 @@ std::optional<bool> active_while_on(const BasicSettings& basic, Pin pin, const M
     case Pin::near_home: return basic.near_home_level == 0;
     case Pin::home: return basic.home_level == 0;
     case Pin::index: return basic.index_level == 0;
-    case Pin::in3: return options.in3_rises_when_it_closes;  // otherwise the line's level: high while off
+    case Pin::in3: return options.in3_rises_when_it_closes;  // otherwise the line level: high while off
     case Pin::in_position: return basic.in_position_level == 0;
     case Pin::alarm: return basic.alarm ? std::optional(basic.alarm_level == 0) : std::nullopt;
     case Pin::external_plus:
@@ -100,7 +100,7 @@ void Chip::pass_pins(Tick tick) {
   const bool is_emergency = (input(kEmergencyPin) != 0) != machine_options().emergency_while_off;
   if (is_emergency != state_.emergency_input) state_.emergency_since = tick;
   state_.emergency_input = is_emergency;
-  // Each axis filters EMG with its own filter for limits and home.
+  // For EMG, each axis uses its own filter for limits and home.
   for (AxisUnit& unit : state_.units) {
     const Tick delay = filter_ticks(unit, static_cast<int>(Pin::limit_plus), machine_options());
     if (tick - state_.emergency_since >= delay) unit.emergency = is_emergency;
@@ -117,7 +117,7 @@ void Chip::pass_all_pins() {
   state_.holds_back = false;
 }
 
-/// Gives the motor zones for inputs that depend on the position, and the levels of all other inputs.
+/// Sets the motor's zones for inputs that depend on the position, and the levels of all other inputs.
 void Chip::update_environment(std::size_t axis) {
   const AxisUnit& unit = state_.units[axis];
   const MachineEdges& edges = (*edges_)[axis];
@@ -161,7 +161,7 @@ void Chip::rearm(std::size_t axis) {
     const bool is_asked = machine_options().all_factors_are_noted || (unit.factors >> i & 1) != 0;
     if (is_asked) asked |= motion::bit(kFactorEvents[i]);
   }
-  // A scan uses C+ alone (7.4.12).
+  // A scan uses only C+ (7.4.12).
   const LineScan& scan = state_.scans[axis];
   constexpr motion::Events kOfPlus =
       motion::bit(motion::Event::comparator_0) | motion::bit(motion::Event::comparator_1);

@@ -20,9 +20,10 @@ namespace understudy::emulator::models::rs_m8194h {
 
 namespace {
 
-/// The limit of 7.4.12.
+/// The limit in 7.4.12.
 constexpr double kMaxScanTriggers_hz = 100'000;
-/// Triggers closer than 10 us to the last one are dropped: 100 of them fit into a tick (7.4.12).
+/// Triggers closer than 10 us to the previous trigger are dropped, so at most 100 of them fit in a tick
+/// (7.4.12).
 constexpr std::int64_t kMaxTriggersOfATick = 100;
 
 }  // namespace
@@ -64,7 +65,7 @@ void Scans::step(Tick tick) {
       chip_.give_pulse(a, tick, given);
       scan.triggered = passed;
     }
-    // An encoder that does not move with the axis reports the last pulses a tick later.
+    // An encoder that does not move with the axis reports the last pulses one tick later.
     const AxisUnit& unit = chip_.unit(a);
     const bool lags = scan.type >= 2 && unit.has_encoder && !chip_.environment(a).encoder.is_known() &&
                       unit.sent_pulses != 0;
@@ -77,7 +78,7 @@ void Scans::step(Tick tick) {
   }
 }
 
-/// Ends a scan. If so chosen, C+ is then where the next trigger would have been.
+/// Ends a scan. A choice can leave C+ where the next trigger would have been.
 void Scans::end(std::size_t axis) {
   LineScan& scan = chip_.scan(axis);
   if (chose(option("scan_comparator", "the_next_trigger"))) {

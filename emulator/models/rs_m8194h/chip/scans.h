@@ -18,15 +18,15 @@ class Scans final : public Part {
   Scans(const Ground& ground, Chip& chip, Interrupts& interrupts)
       : Part(ground), chip_(chip), interrupts_(interrupts) {}
 
-  /// Begins the scans of LINE_SCAN_START; the flag of finished scans is off until all of them have ended.
+  /// Begins the scans of LINE_SCAN_START. The flag for finished scans is off until all of them have ended.
   void open(AxisMask axes);
-  /// Returns true if, under the chosen option, a scan at this speed is void.
+  /// Returns true if a choice makes a scan at this speed void.
   bool is_too_fast(std::size_t axis, const motion::SpeedLaw& law) const;
-  /// Begins the scan of an axis whose drive of `distance_pulses` has begun.
+  /// Begins the scan of an axis when its drive of `distance_pulses` has begun.
   void begin(std::size_t axis, std::int64_t distance_pulses);
-  /// Sends the triggers of a tick, and ends the scans of axes at rest.
+  /// Sends the triggers of a tick, and ends the scans of axes that are at rest.
   void step(Tick tick);
-  /// Returns the travel that the scan's Type counts: a counter itself may wrap in a ring, or be set.
+  /// Returns the travel that the scan's Type counts. The counter itself may wrap in a ring, or be set.
   std::int64_t travel(std::size_t axis) const;
   bool is_open() const { return chip_.state().scanning != 0; }
 

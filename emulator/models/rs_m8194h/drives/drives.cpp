@@ -56,8 +56,8 @@ Took Drives::drive(AxisMask axes, const Drive& what) {
     if (may && takes_place_of_endless(a, what)) taken |= mask_of(a);
   }
   axes &= static_cast<AxisMask>(~taken);
-  // If so chosen, each axis starts separately: an axis that is still moving keeps the drive and starts it
-  // after it has stopped.
+  // If this option is selected, each axis starts separately: an axis that is still moving holds the drive and
+  // starts it after it has stopped.
   const bool is_each_its_own = chose(option("mask_drive", "axis_by_axis")) && (axes & (axes - 1)) != 0;
   for (std::size_t a = 0; a < kAxes; ++a) {
     if (!has(axes, a)) continue;
@@ -80,7 +80,7 @@ Took Drives::drive(AxisMask axes, const Drive& what) {
       case Start::starts: start(a, what); break;
       case Start::is_void: note_obstacles(mask_of(a)); break;
       case Start::is_held:
-        // If so chosen, the later drive replaces the one that was held for this axis, or is dropped.
+        // Depending on a choice, the later drive replaces the held drive of this axis, or is dropped.
         if (keeps_first_held(mask_of(a))) break;
         chip_.unit(a).held_drive = what;
         if (has(streams_.axes_of_held(), a)) streams_.drop_held();
@@ -91,8 +91,8 @@ Took Drives::drive(AxisMask axes, const Drive& what) {
   return Took::done;
 }
 
-/// Returns true if, under the chosen option, a second CONTINUE_MOVE replaces the first one and continues at
-/// its speed. Otherwise it waits for a stop.
+/// Returns true if a choice makes a second CONTINUE_MOVE replace the first one and continue at its speed.
+/// Otherwise, it waits for a stop.
 bool Drives::takes_place_of_endless(std::size_t axis, const Drive& what) {
   motion::Axis& motor = chip_.motor(axis);
   const bool is_again = what.what == Drive::What::endless && chip_.activity(axis) == Activity::single &&
@@ -176,7 +176,7 @@ void Drives::change_speed(std::size_t axis, motion::Instant at) {
       kNormalShapes[unit.speed.mode].s_curve && chose(option("speed_change_in_s", "the_next_drive"));
   if (chip_.activity(axis) != Activity::single || keeps_its_own) return;
   motion::Axis& motor = chip_.motor(axis);
-  // The ramps are those of the drive.
+  // The drive keeps its ramps.
   motion::SpeedLaw law = motor.law;
   const double wanted = chip_.law_of(axis).top_speed_u_s;
   law.start_speed_u_s = std::min(law.start_speed_u_s, wanted);
@@ -189,7 +189,7 @@ void Drives::change_speed(std::size_t axis, motion::Instant at) {
   }
 }
 
-/// Notes which of the axis's marks the event meets.
+/// Records which marks of the axis the event affects.
 void Drives::note_marks(std::size_t axis, DiscardEvent event) const {
   const AxisUnit& unit = chip_.unit(axis);
   const bool is_external =

@@ -1,5 +1,5 @@
-// RS-M8194H: drives of single axes: decides whether they begin, wait, are held or void (transitions.h), and
-// begins them.
+// RS-M8194H: drives of single axes. Decides whether they begin, wait, are held or are void (transitions.h),
+// and begins them.
 #pragma once
 
 #include <array>
@@ -23,7 +23,7 @@ using lang::Took;
 
 struct DriveState {
   bool emergency_state = false;
-  std::array<AxisMask, lang::kTriggerCount> trigger_holds{};  // axes that the level of a channel holds
+  std::array<AxisMask, lang::kTriggerCount> trigger_holds{};  // axes that the level of an input channel holds
 
   bool operator==(const DriveState&) const = default;
 };
@@ -39,30 +39,32 @@ class Drives final : public Part {
   void reset() { state_ = {}; }
 
   // --- whether they may begin (may_start.cpp) ---------------------------------------------------
-  /// Returns whether a path may begin on these axes now, provided that no path is running.
+  /// Returns whether a path may begin on these axes now, assuming that no path is running.
   Start may_start(AxisMask axes, Starter who) const;
   Start may_start(std::size_t axis, Starter who, bool on_path = false) const;
-  /// Sets the error bits for what keeps axes from starting.
+  /// Sets the error bits for the obstacles that prevent axes from starting.
   void note_obstacles(AxisMask axes);
-  /// If so chosen, a drive that would be held waits behind one that is held already, or is void.
+  /// Depending on a choice, a drive that would be held waits until an already held drive is finished, or is
+  /// void.
   bool waits_behind_held(AxisMask axes) const;
   bool keeps_first_held(AxisMask axes) const;
-  /// Returns true if, under the chosen option, the drive is void because its speed was never set.
+  /// Returns true if a choice makes the drive void because its speed was never set.
   bool lacks_speed(std::size_t axis, Drive::What what) const;
 
   // --- how they begin ---------------------------------------------------------------------------
   /// Starts a drive of single axes.
   Took drive(AxisMask axes, const Drive& what);
-  /// Starts one axis without checking locks and waits; anything that it meets at its start becomes its error.
+  /// Starts one axis without checking locks and waits. Any obstacle at the start becomes an error of the
+  /// axis.
   void start(std::size_t axis, const Drive& what, bool without_ramps = false);
   void start_held();
-  /// Applies a changed V: a T-shaped drive continues at the new speed, an S-shaped one keeps its own (7.1).
+  /// Applies a changed V. A T-curve drive continues at the new speed; an S-curve drive keeps its speed (7.1).
   void change_speed(std::size_t axis, motion::Instant at);
-  /// Discards the part of an axis's remaining work that this event removes (transitions.h).
+  /// Discards the part of an axis's remaining work that this event cancels (transitions.h).
   void take_off(std::size_t axis, DiscardEvent event);
-  /// Forgets the errors of earlier motions, for a drive that starts.
+  /// Clears the errors of earlier motions when a drive starts.
   void forget_errors(std::size_t axis);
-  /// Checks the rest of a drive that a pause holds. Anything that would have ended the drive ends the rest.
+  /// Checks the rest of a paused drive. Anything that would have ended the drive ends the rest.
   void check_paused(std::size_t axis);
 
  private:

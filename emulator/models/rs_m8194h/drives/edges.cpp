@@ -37,7 +37,8 @@ void Edges::at_edge(motion::SharedTick& tick, std::size_t axis, motion::Events e
   if ((handled & chip_.sync().triggers[axis].factors) != 0) act_together(tick, axis, handled);
 }
 
-/// Performs the firmware's part of synchronous actions; the kernel latches, presets and drives.
+/// Performs the firmware's part of synchronous actions. The motion kernel handles latches, presets and
+/// drives.
 void Edges::act_together(motion::SharedTick& tick, std::size_t trigger, motion::Events events) {
   using Action = motion::SyncAction::Drive;
   motion::SyncTable acting = chip_.sync();
@@ -47,7 +48,7 @@ void Edges::act_together(motion::SharedTick& tick, std::size_t trigger, motion::
     if (!has(activated, a)) continue;
     motion::SyncAction& action = acting.actions[a];
     acting.speeds[a] = chip_.law_of(a);
-    // Presets also apply at this moment. EP counts the pulses if there is no encoder.
+    // Presets also take effect at this moment. Without an encoder, EP counts the pulses.
     action.latch_command = action.latch_encoder = true;
     const bool sets_speed = action.preset == motion::SyncAction::Preset::speed && action.preset_value > 0;
     const bool has_no_speed = !sets_speed && drives_.lacks_speed(a, Drive::What::fixed);
@@ -79,7 +80,7 @@ void Edges::act_together(motion::SharedTick& tick, std::size_t trigger, motion::
     if (has(outcome.presets_command, a))
       set_count(unit.logic, unit.basic, preset, latch.travel_pulses, ring_folds);
     if (has(outcome.presets_encoder, a)) set_count(unit.encoder, unit.basic, preset, encoder, ring_folds);
-    // For an endless drive, a preset of the speed is void (7.3.1).
+    // If the drive is endless, a preset of the speed is void (7.3.1).
     if (action.preset == motion::SyncAction::Preset::speed && preset > 0 && !is_endless(action.drive)) {
       unit.speed.drive_pps = static_cast<std::uint32_t>(preset);
       if (!starts_something(action.drive)) drives_.change_speed(a, tick.now());

@@ -1,5 +1,5 @@
-// RS-M8194H: handles an axis that reaches an edge, at that very moment, whatever moves it: records its
-// errors, marks interrupts, and executes synchronous actions (7.3), on whichever axis they act.
+// RS-M8194H: handles an axis that reaches an edge, at the exact moment and for any kind of motion: records
+// errors, marks interrupts, and executes synchronous actions (7.3) on all axes that they affect.
 #pragma once
 
 #include <array>

@@ -18,7 +18,7 @@ namespace understudy::emulator::models::rs_m8194h {
 
 namespace {
 
-/// Returns true if an axis of a path has met this cause itself; the cause may come from another axis.
+/// Returns true if the axis of a path has itself met this cause, which may also come from another axis.
 bool is_its_own(const motion::Axis& motor, motion::Cause cause) {
   const auto is_on = [&](motion::Signal signal) { return (motor.signals & motion::bit(signal)) != 0; };
   switch (cause) {
@@ -40,7 +40,7 @@ bool is_its_own(const motion::Axis& motor, motion::Cause cause) {
   return true;
 }
 
-/// Returns true if a move has sent its very last pulse; it may have met a limit at that pulse.
+/// Returns true if a move has sent its last pulse. It may have reached a limit at that pulse.
 bool is_complete(const AxisUnit& unit, const motion::Axis& motor) {
   const std::int64_t gone = std::abs(motor.travel_pulses - unit.began_pulses);
   return motor.target_pulses > 0 && gone == motor.target_pulses;
@@ -78,14 +78,14 @@ void Edges::on_homed(std::size_t axis) {
   }
 }
 
-/// Returns true for a limit that, if so chosen, is not the cause of an end, because the drive ends there
-/// anyway.
+/// Returns true for a limit that a choice does not regard as the cause of an end, because the drive ends
+/// there anyway.
 bool Edges::is_no_cause(motion::Cause cause, bool is_at_its_end) const {
   const bool is_limit = cause == motion::Cause::limit_plus || cause == motion::Cause::limit_minus;
   return is_limit && is_at_its_end && chose(option("limit_at_the_end", "is_complete"));
 }
 
-/// Records the errors of the path's end: its own cause, and what it has met before.
+/// Records the errors at the end of the path: the cause of the end, and the earlier obstacles.
 void Edges::note_end_of_path(std::size_t axis) {
   AxisUnit& unit = chip_.unit(axis);
   motion::Axis& motor = chip_.motor(axis);
@@ -94,12 +94,12 @@ void Edges::note_end_of_path(std::size_t axis) {
     if (is_its_own(motor, motor.cause)) chip_.add_errors(axis, error_of(motor.cause));
     chip_.add_errors(axis, met);
   }
-  // The error is recorded only once: a host may have cleared it before D-END.
+  // The error is recorded only once, because a host may have cleared it before D-END.
   if (motor.cause != motion::Cause::arrived && motor.task == motion::Task::none)
     motor.cause = motion::Cause::stopped;
 }
 
-/// Records the cause of an end in the error code. Returns the events that count under the chosen options.
+/// Records the cause of an end in the error code. Returns the events that count with the selected options.
 motion::Events Edges::on_axis_end(std::size_t axis, motion::Events events) {
   const motion::Axis& motor = chip_.motor(axis);
   AxisUnit& unit = chip_.unit(axis);

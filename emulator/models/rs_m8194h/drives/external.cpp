@@ -22,12 +22,13 @@ namespace understudy::emulator::models::rs_m8194h {
 
 namespace {
 
-/// If a tick has more edges than the chip counts (4 MHz), only the last ones count.
+/// If a tick has more edges than the chip can count (4 MHz), only the last ones count.
 constexpr std::uint32_t kMaxEdgesPerTick = 8'000;
 
 }  // namespace
 
-/// Returns the edges of an input since the last call, in whichever direction its count has changed.
+/// Returns the number of edges of an input since the last call, independent of the direction in which its
+/// count has changed.
 std::uint32_t External::edges_of(std::size_t axis, std::size_t which) {
   AxisUnit& unit = chip_.unit(axis);
   const Pin pin = which == 0 ? Pin::external_plus : Pin::external_minus;
@@ -41,28 +42,28 @@ std::uint32_t External::edges_of(std::size_t axis, std::size_t which) {
     const bool was_high = which == 0 ? unit.external.plus_high : unit.external.minus_high;
     const bool is_high = (unit.pins.passed & bit_of(pin)) == 0;
     edges = was_high != is_high ? 1 : 0;
-    // If the filter is removed, the level that it held back becomes an edge.
+    // When the filter is removed, the level that it held back becomes an edge.
     if (((count & 1U) == 0) != is_high) --unit.external_seen[which];
   }
-  // While off, only the level at the end matters.
+  // If the mode is off, only the final level matters.
   if (unit.external.mode == motion::ExternalDrive::Mode::off && edges > 1) edges = 2 - (edges & 1U);
   return edges;
 }
 
-/// Spreads the edges of an input evenly over the tick, interleaved with those of the other input.
+/// Distributes the edges of an input evenly over the tick, interleaved with those of the other input.
 void External::watch(std::size_t axis, Tick tick) {
   AxisUnit& unit = chip_.unit(axis);
   const std::array<std::uint32_t, 2> edges{edges_of(axis, 0), edges_of(axis, 1)};
   std::array<std::uint32_t, 2> done{};
   while (done[0] < edges[0] || done[1] < edges[1]) {
-    const auto place = [&](std::size_t i) { return std::int64_t{done[i]} * 2 + 1; };  // in 2 * edges[i]
+    const auto place = [&](std::size_t i) { return std::int64_t{done[i]} * 2 + 1; };  // in 1 / (2 * edges[i])
     const bool is_plus =
         done[1] == edges[1] || (done[0] < edges[0] && place(0) * edges[1] <= place(1) * edges[0]);
     const std::size_t i = is_plus ? 0 : 1;
     const std::int64_t half_ns = kTickLength.count() / (std::int64_t{edges[i]} * 2);
     std::int64_t at_ns = time_of(tick).count() + half_ns * place(i);
     ++done[i];
-    // Among edges of the other input, the exact time is not known.
+    // If the other input also has edges, the exact time is not known.
     const std::int64_t max_ns = edges[0] != 0 && edges[1] != 0 ? half_ns : 0;
     at_ns = std::clamp(unit.external_free_ns, at_ns, at_ns + max_ns);
     // A line is high while it does not conduct; each edge inverts it.
@@ -73,8 +74,8 @@ void External::watch(std::size_t axis, Tick tick) {
   }
 }
 
-/// Returns true if the axis counts as driving only because drives end at ticks: the pulses of its last edge
-/// have already been sent.
+/// Returns true if the axis counts as driving only because drives end at ticks, although the pulses of its
+/// last edge have already been sent.
 bool External::is_free(std::size_t axis, std::int64_t at_ns) const {
   const AxisUnit& unit = chip_.unit(axis);
   const motion::Axis& motor = chip_.motor(axis);
@@ -125,7 +126,7 @@ bool External::start(std::size_t axis, const motion::DriveOrder& order) {
   return has_begun;
 }
 
-/// If something else has ended a drive, the pulses that wait for its end are dropped.
+/// If a drive was ended by something else, the pulses that are waiting for its end are dropped.
 void External::start_waiting() {
   for (std::size_t a = 0; a < kAxes; ++a) {
     AxisUnit& unit = chip_.unit(a);

@@ -1,5 +1,4 @@
-// RS-M8194H: drives by the inputs EXP+ and EXP- (7.1.12): edges within a tick, and the drives that they
-// start.
+// RS-M8194H: drives that the inputs EXP+ and EXP- start (7.1.12), including edges within a tick.
 #pragma once
 
 #include <cstddef>
@@ -20,11 +19,11 @@ class External final : public Part {
 
   /// Handles the edges of a tick.
   void watch(std::size_t axis, Tick tick);
-  /// Starts the drives that waited for the end of the tick in which the earlier pulses were sent.
+  /// Starts the drives that waited for the end of the tick in which earlier pulses were sent.
   void start_waiting();
-  /// Sets EXD_MP, EXD_FP or EXD_CP with their data, or turns them off.
+  /// Sets EXD_MP, EXD_FP or EXD_CP with their data, or switches them off.
   void set(std::size_t axis, motion::ExternalDrive::Mode mode, std::uint32_t data);
-  /// Adopts the levels of the inputs at power-up, which are not edges.
+  /// Records the levels of the inputs at power-up, which do not count as edges.
   void take_levels(std::size_t axis);
 
  private:

@@ -1,4 +1,4 @@
-// Decides by the rows of transitions.h whether a drive begins, waits, is held or is void.
+// Decides whether a drive begins, waits, is held or is void, according to the rows of transitions.h.
 #include <cstddef>
 
 #include "emulator/models/rs_m8194h/chip/axis_unit.h"

@@ -25,7 +25,7 @@ void MotionStep::step(Tick tick) {
   on_path_speed(tick);
   streams_.on_path_end(was_full);
   for (std::size_t a = 0; a < kAxes; ++a) {
-    // The input stops only what it has started.
+    // The input only stops a motion that it has started.
     if (!chip_.motor(a).moving()) chip_.unit(a).external.running = 0;
     if (chip_.unit(a).paused_drive.what != Drive::What::none) drives_.check_paused(a);
   }
@@ -53,12 +53,12 @@ void MotionStep::step_axes(Tick tick) {
       enter_ring(chip_.unit(a), chip_.motor(a));
       if (!is_beyond_ring(chip_.unit(a))) chip_.rearm(a);
     }
-    // The signal may have ended before the path stops.
+    // The signal may go off before the path stops.
     if (chip_.motor(a).slowing && together.takes(a)) chip_.unit(a).met |= error_of(chip_.motor(a).cause);
   }
 }
 
-/// Handles C-STA and C-END of a path, for its axis1.
+/// Handles C-STA and C-END of a path. They belong to its axis1.
 void MotionStep::on_path_speed(Tick tick) {
   if (!machine_options().paths_have_c_sta) return;
   Paths& paths = chip_.paths();
@@ -117,7 +117,7 @@ Tick MotionStep::quiet_until(Tick done, Tick last, const ClearTravel& ahead) con
     last = motor.quiet_until(done + 1, last, chip_.environment(a),
                              {.low = motor.travel_pulses + room.min, .high = motor.travel_pulses + room.max});
   }
-  // Held paths wait for an axis to stop.
+  // Held paths are waiting for an axis to stop.
   return streams_.held().empty() || chip_.driving() != 0 ? last : done;
 }
 

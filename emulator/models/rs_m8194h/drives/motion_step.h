@@ -1,4 +1,4 @@
-// RS-M8194H: a tick of the motion chip, or many at once: the motors move, then their events take effect.
+// RS-M8194H: runs one or many ticks of the motion chip: the motors move, then their events take effect.
 #pragma once
 
 #include <cstdint>
@@ -32,9 +32,9 @@ class MotionStep final : public Part {
 
   void step(Tick tick);
 
-  /// Returns true if no axis moves, and none has anything to report.
+  /// Returns true if no axis is moving, and none has anything to report.
   bool rests() const;
-  /// Returns the last tick up to which only positions change, at most `last`; `done` if there is none.
+  /// Returns the last tick up to which only positions change, at most `last`, or `done` if there is none.
   Tick quiet_until(Tick done, Tick last, const ClearTravel& ahead) const;
   void fast_forward_to(Tick tick, const ClearTravel& ahead, std::span<std::int64_t> pulses);
 

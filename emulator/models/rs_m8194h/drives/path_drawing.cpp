@@ -26,7 +26,7 @@ namespace {
 
 using motion::Point;
 
-/// The figure of a command, its turning direction, and the first parameter of its points.
+/// The figure that a command draws, its turning direction, and the first parameter of its points.
 struct Figure {
   Draws draws = Draws::line;
   Turn turn = kCw;
@@ -42,7 +42,7 @@ Figure figure_of(const PathRow& row, const lang::Command& command) {
           .first_value = mix.draws == Draws::line ? std::size_t{4} : std::size_t{2}};
 }
 
-/// Speeds as sent, their shape, and a factor for those that are not along the path.
+/// Speeds as sent, their ramp shape, and a factor for speeds that are not measured along the path.
 struct PathSpeed {
   SpeedSettings settings{};
   Shape shape{};
@@ -64,7 +64,7 @@ PathSpeed speed_of(const Paths& paths, const PathRow& row) {
           .shape = {.constant = given.constant}};
 }
 
-/// The pen: the position of a command's parameters on its axes, and what has been drawn so far.
+/// The pen reads a command's parameters one after another, and records what has been drawn so far.
 class Pen {
  public:
   Pen(const Chip& chip, const HeldPath& path, bool joins)
@@ -117,7 +117,7 @@ class Pen {
     return speed_range(max_v, chip_.machine_options().speed, highest);
   }
 
-  /// Returns the place of a coordinate that a command gives, in pulses from where the run began.
+  /// Returns the place of a coordinate in a command, in pulses from where the run began.
   double place(std::size_t coordinate, double value) const {
     const double here = begin_[static_cast<Eigen::Index>(coordinate)];
     if (!row_.absolute) return here + value;
@@ -180,7 +180,7 @@ class Pen {
             .shape = {.constant = command.values[2] == 0, .unlike_ramps = true}};
   }
 
-  /// Draws a helix with this many turns (7.4.11); 0 turns draw nothing.
+  /// Draws a helix with this many turns (7.4.11). With 0 turns, it draws nothing.
   PathSpeed helix() {
     PathSpeed speed{.settings = {.drive_pps = path_.command.values[4], .offset_pulses = 0},
                     .shape = {.constant = true}};

@@ -1,4 +1,4 @@
-// RS-M8194H: what a command of 7.2 or 7.4 draws, and how fast, as a value. The path itself belongs to
+// RS-M8194H: what a command of 7.2 or 7.4 draws, and how fast, as a value. The path itself is part of
 // motion/.
 #pragma once
 
@@ -16,7 +16,7 @@ namespace understudy::emulator::models::rs_m8194h {
 struct PathDrawing {
   motion::PathRun run;
   std::array<double, 4> end{};  // in pulses from where the run began
-  double length = 0;            // the length of the part drawn now; 0: the command draws nothing
+  double length = 0;            // length of the part drawn now; 0: the command draws nothing
   motion::SpeedLaw law;
 
   motion::Point at() const { return {end[0], end[1], end[2], end[3]}; }
@@ -27,7 +27,7 @@ struct PathDrawing {
   }
 };
 
-/// Draws a path, behind the running one if it joins its stream. Throws BadMotion if it cannot be drawn.
+/// Draws a path. If it joins its stream, it follows the running path. Throws BadMotion if it cannot be drawn.
 PathDrawing draw_path(const Chip& chip, const HeldPath& path, bool joins);
 
 }  // namespace understudy::emulator::models::rs_m8194h

@@ -1,4 +1,4 @@
-// RS-M8194H: the paths (7.2, 7.4), as rows: what each command draws.
+// RS-M8194H: the path commands (7.2, 7.4) as rows, with what each of them draws.
 #pragma once
 
 #include <algorithm>
@@ -28,7 +28,7 @@ struct PathRow {
   Draws draws;
   int dimensions;
   bool absolute;
-  Turn turn;      // the direction of arcs and circles
+  Turn turn;      // direction of arcs and circles
   Stream stream;  // the kind of stream
 };
 inline constexpr auto kCw = Turn::clockwise;
@@ -74,11 +74,11 @@ inline constexpr std::array<Shape, 12> kVectorShapes{{
     {.unlike_ramps = true},
     {.s_curve = true, .unlike_ramps = true},
 }};
-/// Highest MAX_V of interpolation (3.4), by the number of axes.
+/// The highest MAX_V for interpolation (3.4), by the number of axes.
 inline constexpr std::uint32_t kHighest[] = {2'828'854, 2'309'468};
 inline constexpr std::uint32_t kHighestOfOneAxis = 4'000'000;
 
-/// The kinds of nType in MIX_2D_CONTINUE.
+/// The segment kinds that nType selects in MIX_2D_CONTINUE.
 struct MixRow {
   Draws draws;
   Turn turn;
@@ -86,8 +86,8 @@ struct MixRow {
 inline constexpr MixRow kMixRows[] = {
     {Draws::line, kCw}, {Draws::arc, kCw}, {Draws::arc, kCcw}, {Draws::circle, kCw}, {Draws::circle, kCcw}};
 
-/// Returns true if a mode fits the number of axes and the kind of path, lines or arcs; modes 0 and 7 fit both
-/// kinds.
+/// Returns true if a mode matches the number of axes and the kind of path (lines or arcs). Modes 0 and 7
+/// match both kinds.
 inline bool fits_mode(std::uint8_t mode, int dimensions, Draws draws) {
   if ((mode < 7) != (dimensions == 2)) return false;
   if (mode == 0 || mode == 7) return true;

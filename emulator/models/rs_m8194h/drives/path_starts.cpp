@@ -44,7 +44,7 @@ Took PathStarts::follow(const lang::Command& command) {
   const HeldPath path{.command = command, .codes = codes_of(command)};
   std::vector<HeldPath>& held = streams_.held();
   if (held.empty() || !follows(held.front(), path)) return begin(path);
-  // A stream is one drive: its segments are held together, and begin one after another.
+  // A stream counts as one drive: its segments are held together, and begin one after another.
   const auto end = std::find_if_not(held.begin(), held.end(),
                                     [&](const HeldPath& each) { return follows(held.front(), each); });
   const bool has_last = is_last_segment(*std::prev(end));
@@ -60,14 +60,14 @@ void PathStarts::start_held() {
     const HeldPath path = held.front();
     const Start outcome = drives_.may_start(mask_of_codes(path.codes), Starter::command);
     const bool stays = outcome == Start::is_held || outcome == Start::waits;
-    // Segments behind the one that has begun join it.
+    // Segments join the one that has begun.
     if (stays && !streams_.joins(path)) return;
     if (begin(path) == Took::waits) return;
     if (!held.empty()) held.erase(held.begin());
   }
 }
 
-/// Returns true if the path does not fit the settings of its axes and of its speed.
+/// Returns true if the path does not match the settings of its axes or of its speed.
 bool PathStarts::is_refused(const HeldPath& path) const {
   const PathRow& row = row_of_path(path.command.verb());
   const Paths& paths = chip_.paths();
@@ -101,7 +101,7 @@ Took PathStarts::begin(const HeldPath& path) {
     draw(path, joins);
   } catch (const motion::BadMotion& bad) {
     if (bad.refusal() == motion::Refusal::out_of_range) warn_not_implemented(kLongHelix, kWhyNoLongHelix);
-    interrupts_.raise(Rint::module);  // no such arc, for example
+    interrupts_.raise(Rint::module);  // for example, there is no such arc
   }
   return Took::done;
 }
@@ -114,7 +114,7 @@ Start PathStarts::may_begin(const HeldPath& path) {
     streams_.refuse(path);
     return outcome;
   }
-  // Only one path can run at a time, whatever its axes.
+  // Only one path can run at a time, regardless of its axes.
   if (outcome == Start::waits || chip_.paths().together.engaged) return Start::waits;
   const bool is_single = row_of_path(path.command.verb()).runs == Paths::Runs::single;
   const bool has_no_speed = is_single && chip_.paths().vector.drive_pps == 0;
@@ -129,7 +129,7 @@ Took PathStarts::hold(const HeldPath& path) {
     if (has(axes, a)) chip_.unit(a).held_drive = {};
   }
   streams_.drop_held();
-  // The held segments of the stream had another INITIAL.
+  // The held segments of the stream belong to a different INITIAL.
   if (is_segment(path)) streams_.forget_break(row_of_path(path.command.verb()).stream);
   streams_.held().assign(1, path);
   return Took::done;
@@ -140,7 +140,7 @@ void PathStarts::draw(const HeldPath& path, bool joins) {
   Paths& paths = chip_.paths();
   const bool is_stream = is_segment(path);
   const bool is_last = !is_stream || is_last_segment(path);
-  // The errors and the RINT bit of an interrupted stream stay until a new one begins.
+  // The errors and the RINT bit of an interrupted stream remain until a new stream begins.
   const bool continues = is_stream && (paths.broken & bit_of(row.stream)) != 0;
   if (is_stream && is_last) streams_.forget_break(row.stream);
   const PathDrawing drawing = draw_path(chip_, path, joins);
@@ -148,7 +148,7 @@ void PathStarts::draw(const HeldPath& path, bool joins) {
     paths.together.run = drawing.run;
     paths.end = drawing.end;
     streams_.loaded().push_back(path);
-  } else if (drawing.length == 0) {  // the path sends no pulse, and neither begins nor ends
+  } else if (drawing.length == 0) {  // the path sends no pulse, so it neither begins nor ends
     if (is_stream && is_last) paths.open = false;
     return;
   } else if (!set_out(path, drawing)) {
@@ -165,7 +165,7 @@ void PathStarts::draw(const HeldPath& path, bool joins) {
   if (joins && is_last && begins_to_slow_down) paths.together.run.set_open(false, now());
 }
 
-/// Starts what was drawn. Returns false if an axis keeps it from beginning.
+/// Starts what was drawn. Returns false if an axis prevents it from beginning.
 bool PathStarts::set_out(const HeldPath& path, const PathDrawing& drawing) {
   const PathRow& row = row_of_path(path.command.verb());
   const bool ends_here = !is_segment(path) || is_last_segment(path);
@@ -198,8 +198,8 @@ bool PathStarts::set_out(const HeldPath& path, const PathDrawing& drawing) {
   return true;
 }
 
-/// Returns true if an active limit, or a soft limit that is reached, keeps a path from beginning, as it does
-/// the drive of an axis. The error bit is that of the axis that would have moved against the limit.
+/// Returns true if an active limit, or a soft limit that is reached, prevents a path from beginning, as for
+/// the drive of an axis. The error bit is set for the axis that would have moved against the limit.
 bool PathStarts::is_kept_off(const std::array<std::uint8_t, 3>& codes, const motion::Point& direction) {
   bool is_kept = false;
   for (std::size_t i = 0; i < codes.size(); ++i) {

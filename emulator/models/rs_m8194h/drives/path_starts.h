@@ -1,5 +1,5 @@
-// RS-M8194H: interpolation, lines, arcs, streams, rectangle, helix (7.2, 7.4): decides whether a path begins,
-// waits, is held or void, or joins its stream.
+// RS-M8194H: interpolation (lines, arcs, streams, rectangle, helix; 7.2, 7.4). Decides whether a path begins,
+// waits, is held, is void, or joins its stream.
 #pragma once
 
 #include <array>
@@ -22,19 +22,19 @@ class PathStarts final : public Part {
   PathStarts(const Ground& ground, Chip& chip, Interrupts& interrupts, Streams& streams, Drives& drives)
       : Part(ground), chip_(chip), interrupts_(interrupts), streams_(streams), drives_(drives) {}
 
-  /// Starts a path, which may have to wait, be held, or have no effect.
+  /// Starts a path. The path may have to wait, be held, or have no effect.
   Took follow(const lang::Command& command);
-  /// Starts the held paths whose turn it is.
+  /// Starts the held paths that may begin now.
   void start_held();
 
  private:
   std::array<std::uint8_t, 3> codes_of(const lang::Command& command) const;
   bool is_refused(const HeldPath& path) const;
   Took begin(const HeldPath& path);
-  /// Returns what happens to a path that joins no stream.
+  /// Returns what happens to a path that does not join a stream.
   Start may_begin(const HeldPath& path);
   Took hold(const HeldPath& path);
-  /// Draws a command that may begin, or that joins its stream. Throws BadMotion if it cannot be drawn.
+  /// Draws a command that can begin, or that joins its stream. Throws BadMotion if it cannot be drawn.
   void draw(const HeldPath& path, bool joins);
   bool set_out(const HeldPath& path, const PathDrawing& drawing);
   bool is_kept_off(const std::array<std::uint8_t, 3>& codes, const motion::Point& direction);

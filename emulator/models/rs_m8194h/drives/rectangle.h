@@ -1,4 +1,4 @@
-// RS-M8194H: the outline of RECTANGLE (7.4.1), and the points at which it may begin.
+// RS-M8194H: the outline of RECTANGLE (7.4.1), and the points at which it can begin.
 #pragma once
 
 #include <array>
@@ -8,8 +8,8 @@
 namespace understudy::emulator::models::rs_m8194h {
 
 /// The outline of a rectangle, counter-clockwise from the beginning of its lower side. Points with even
-/// numbers are the eight tangent points, Sp0 to Sp7; those with odd numbers are the middles of sides and
-/// corners (the drawing of 7.4.1 is lost).
+/// numbers are the eight tangent points, Sp0 to Sp7; points with odd numbers are the middles of sides and
+/// corners (our copy of the manual lacks the drawing of 7.4.1).
 struct RectanglePlan {
   std::array<std::array<double, 2>, 16> points{};
   std::array<std::array<double, 2>, 4> centres{};  // of the corners after points 2, 6, 10 and 14

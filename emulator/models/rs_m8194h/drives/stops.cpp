@@ -20,8 +20,8 @@
 
 namespace understudy::emulator::models::rs_m8194h {
 
-/// Takes an axis off its path; the other axes continue. The axis stops, or slows down by its own ramp from
-/// its present speed.
+/// Removes an axis from its path while the other axes continue. The axis stops, or slows down by its own ramp
+/// from its present speed.
 void Stops::leave_path(std::size_t axis, Halt halt) {
   const double speed_pps = chip_.paths().together.speed_pps(axis, now());
   for (std::int8_t& mine : chip_.paths().together.axis_of) {
@@ -37,13 +37,13 @@ void Stops::leave_path(std::size_t axis, Halt halt) {
   const bool slows = halt == Halt::slows && std::abs(speed_pps) > law.start_speed_u_s;
   if (slows && motor.move_on(speed_pps, speed_pps < 0 ? -1 : +1, law, now()) == motion::Cause::none) {
     motor.events_between = before;  // the axis is already moving to its target
-    motor.slow_down(now());         // without this, the axis would come back
+    motor.slow_down(now());         // otherwise, the axis would return
   } else {
     motor.stop();
   }
 }
 
-/// Slows or stops an axis, with all others of its path if it does not leave them.
+/// Slows down or stops an axis, together with all others of its path unless it leaves the path.
 void Stops::halt_axis(std::size_t axis, Halt halt, bool leaves_others) {
   const bool slows = halt == Halt::slows;
   if (chip_.activity(axis) != Activity::path) {

@@ -1,4 +1,5 @@
-// RS-M8194H: stops, locks, holds and pauses, and what ends them (7.5), by the rows of transitions.h.
+// RS-M8194H: stops, locks, holds and pauses, and what ends them (7.5), according to the rows of
+// transitions.h.
 #pragma once
 
 #include <cstddef>
@@ -20,7 +21,7 @@ class Stops final : public Part {
       : Part(ground), chip_(chip), streams_(streams), drives_(drives), path_starts_(path_starts) {}
 
   void halt(AxisMask axes, const StopRow& row);
-  /// Slows axes down without a lock, for a trigger.
+  /// Slows down axes without a lock, for a trigger.
   void slow_down(AxisMask axes);
   void clear_stop(AxisMask axes);
   void clear_path_stop();
@@ -28,10 +29,10 @@ class Stops final : public Part {
 
   void hold(AxisMask axes);
   void release(AxisMask axes);
-  /// Starts what is held or waits, if its turn has come.
+  /// Starts held or waiting motion that may begin now.
   void start_held();
 
-  /// Brings moving axes to rest; resume() continues from there. Homing is not affected.
+  /// Brings moving axes to rest. resume() continues their motion. Homing is not affected.
   void pause();
   void resume();
 

@@ -56,8 +56,8 @@ bool Streams::joins(const HeldPath& path) const {
          paths.stream == row.stream && paths.open && (paths.axes & ~mask_of_codes(path.codes)) == 0;
 }
 
-/// Returns true if there is room for a segment: one is loaded ahead of the running one, and segments that end
-/// within the next tick need their successors in time.
+/// Returns true if there is room for a segment. One segment is loaded ahead of the running one, and segments
+/// that end within the next tick need their successors in time.
 bool Streams::has_room() const {
   const motion::PathRun& run = chip_.paths().together.run;
   if (run.full()) return false;
@@ -104,7 +104,7 @@ void Streams::forget_done() {
   state_.loaded.erase(state_.loaded.begin(), state_.loaded.begin() + done);
 }
 
-/// Returns the law for slowing down. A path without ramps uses those of its start speed.
+/// Returns the speed law for slowing down. For a path without ramps, it is that of its start speed.
 motion::SpeedLaw Streams::law_to_slow_down() const {
   const Paths& paths = chip_.paths();
   motion::SpeedLaw law = paths.together.run.speed();
@@ -137,7 +137,7 @@ void Streams::forget_break(Stream stream) {
   chip_.paths().broken &= static_cast<std::uint8_t>(~bit_of(stream));
 }
 
-/// Returns true if the segment belongs to a broken stream. The last segment ends what is left of the stream.
+/// Returns true if the segment belongs to a broken stream. The last segment ends the rest of the stream.
 bool Streams::is_left_over(const HeldPath& segment) {
   const Stream stream = stream_of(segment);
   const bool runs = chose(option("broken_stream", "runs_all_the_same"));
@@ -147,8 +147,8 @@ bool Streams::is_left_over(const HeldPath& segment) {
   return true;
 }
 
-/// Breaks off a stream. `has_more` means that its last segment has not come yet. Its held segments become
-/// void too.
+/// Breaks off a stream. `has_more` means that its last segment has not arrived yet. Its held segments also
+/// become void.
 void Streams::break_off(Stream stream, bool has_more) {
   interrupts_.raise(Rint::stream);
   auto& held = state_.held_paths;
@@ -171,11 +171,11 @@ void Streams::break_off() {
   if (paths.together.engaged) return;  // the path is slowing down
   auto loaded = std::exchange(state_.loaded, {});
   if (loaded.size() < 2 || !chose(option("broken_stream", "runs_all_the_same"))) return;
-  // The segments after the interrupted one run as soon as they can, before everything that waits.
+  // The segments after the interrupted one run as soon as possible, before everything else that is waiting.
   state_.held_paths.insert(state_.held_paths.begin(), loaded.begin() + 1, loaded.end());
 }
 
-/// Refuses a segment that must not begin, and the segments after it.
+/// Refuses a segment that must not begin, and all segments after it.
 void Streams::refuse(const HeldPath& path) {
   if (is_segment(path)) break_off(stream_of(path), !is_last_segment(path));
 }

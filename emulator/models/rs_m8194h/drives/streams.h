@@ -1,4 +1,4 @@
-// RS-M8194H: the path that runs, those that are held, and streams that end before their last segment (7.4).
+// RS-M8194H: the running path, the held paths, and streams that end before their last segment (7.4).
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@ namespace understudy::emulator::models::rs_m8194h {
 
 namespace lang = interpreter::rs_m8194h;
 
-/// The blocks of the FIFO, and the most segments of a stream that are held.
+/// The number of FIFO blocks, which is also the maximum number of held segments of a stream.
 inline constexpr int kFifoBlocks = 30;
 
 /// A held interpolation, with the axes for which it was sent.
@@ -34,14 +34,14 @@ struct HeldPath {
 bool is_path(const lang::Command& command);
 /// Returns true if `other` is a segment of the same stream.
 bool follows(const HeldPath& first, const HeldPath& other);
-/// Return true if the path is a segment of a stream, and if it is the last one.
+/// These return true if the path is a segment of a stream, and if it is the last segment.
 bool is_segment(const HeldPath& path);
 bool is_last_segment(const HeldPath& path);
 
 struct StreamState {
-  // paths that wait for DRV_START; a segment is followed by those of its stream
+  // paths that wait for DRV_START; a segment is followed by the other segments of its stream
   std::vector<HeldPath> held_paths{};
-  // segments of the running stream: the current one and those ready behind it
+  // segments of the running stream: the current one, and those that are ready to follow it
   std::vector<HeldPath> loaded{};
 
   bool operator==(const StreamState&) const = default;
@@ -66,25 +66,25 @@ class Streams final : public Part {
   bool joins(const HeldPath& path) const;
   /// Returns true if the running stream accepts one more segment.
   bool has_room() const;
-  /// Returns true if all axes of a path are where it ends.
+  /// Returns true if all axes of a path are at its end.
   bool is_complete() const;
-  /// Handles a path that has ended, or whose end has come near.
+  /// Handles a path that has ended or is about to end.
   void on_path_end(bool was_full);
-  /// Forgets the segments that have been run.
+  /// Removes the segments that have been run.
   void forget_done();
 
-  /// Return the law by which the path slows down to its end, and slow the path down by it.
+  /// Return the speed law for slowing down to the end of the path, and slow down the path by it.
   motion::SpeedLaw law_to_slow_down() const;
   void slow_down(Tick tick);
   void stop(motion::Instant at = {});
-  /// Ends a starved stream on this axis, because a drive of single axes begins.
+  /// Ends a starved stream on this axis because a drive of single axes begins.
   void on_single_drive(std::size_t axis);
 
-  /// Breaks off the stream that runs or slows down, or that has starved.
+  /// Breaks off the stream that is running or slowing down, or that has starved.
   void break_off();
-  /// Breaks off the stream of a segment that may not begin; the segments behind it do not begin either.
+  /// Breaks off the stream of a segment that must not begin. The segments after it do not begin, either.
   void refuse(const HeldPath& path);
-  /// Returns true if a segment belongs to what is left of a stream that was broken off.
+  /// Returns true if a segment belongs to the rest of a stream that was broken off.
   bool is_left_over(const HeldPath& segment);
   void forget_break(Stream stream);
 

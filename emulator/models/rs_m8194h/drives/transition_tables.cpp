@@ -20,7 +20,7 @@ std::vector<std::string> start_states() {
   return names;
 }
 
-/// Returns false for obstacles that do not hold back that starter: then the axis's activity counts.
+/// Returns false for obstacles that do not affect that starter. In this case, the axis's activity decides.
 bool can_start_meet(std::size_t state, std::size_t starter) {
   if (state >= kObstacles) return true;
   const ObstacleRow& row = kObstacleRows[state];

@@ -15,8 +15,8 @@ inline constexpr std::size_t kStartTable = 0;
 inline constexpr std::size_t kStopTable = 1;
 inline constexpr std::size_t kDiscardTable = 2;
 
-/// Returns the state of the first table: an obstacle, or, after the obstacles, the activity of an axis that
-/// has none.
+/// Returns the state number in the first table. The obstacles come first, followed by the activities of an
+/// axis without obstacles.
 constexpr std::size_t start_state(Obstacle obstacle) { return static_cast<std::size_t>(obstacle); }
 constexpr std::size_t start_state(Activity activity) {
   return kObstacles + static_cast<std::size_t>(activity);

@@ -1,4 +1,4 @@
-// RS-M8194H: what a command does in each state of an axis, as data. The code looks up these tables, and a
+// RS-M8194H: the effect of a command in each state of an axis, as data. The code looks up these tables, and a
 // test checks every cell.
 #pragma once
 
@@ -13,16 +13,16 @@ namespace understudy::emulator::models::rs_m8194h {
 
 namespace lang = interpreter::rs_m8194h;
 
-// --- starting: the rows are checked in order, and the first that applies decides ---------------------------
+// --- starting: the rows are checked in order, and the first applicable row decides -------------------------
 
-/// The obstacles that can prevent a drive, besides a motion of its axis.
+/// The obstacles that can prevent a drive, apart from a motion of its axis.
 enum class Obstacle : std::uint8_t {
   emergency_state,
   lock,
   path_lock,
   emergency_input,
   alarm,
-  servo_off,  // if drives need the servo on, which is a choice
+  servo_off,  // if a choice requires the servo to be on
   hold
 };
 inline constexpr std::size_t kObstacles = 7;
@@ -38,10 +38,11 @@ struct ObstacleRow {
   Obstacle obstacle;
   Start command;
   Start external;
-  bool sets_error;  // true: it sets a bit of the error code
-  ErrorBit error;   // the bit of the error code
+  bool sets_error;  // true: it sets a bit in the error code
+  ErrorBit error;   // the bit in the error code
 };
-/// Obstacles (7.5.1 to 7.5.10, 3.12). A lock sets its error bit when it is set, not when it prevents a drive.
+/// Obstacles (7.5.1 to 7.5.10, 3.12). A lock sets its error bit when the lock is set, not when it prevents a
+/// drive.
 inline constexpr std::array<ObstacleRow, kObstacles> kObstacleRows{{
     {Obstacle::emergency_state, Start::is_void, Start::is_void, false, ErrorBit::soft_emergency},
     {Obstacle::lock, Start::is_void, Start::is_void, false, ErrorBit::soft_stop},
@@ -72,7 +73,7 @@ enum class Halt : std::uint8_t { continues, slows, stops };
 struct StopRow {
   lang::Verb verb;
   std::uint8_t type;                    // stopType of EMERGENCY_STOP, otherwise 0
-  std::array<Halt, kActivities> halts;  // by Activity; a path slows or stops with all its axes
+  std::array<Halt, kActivities> halts;  // by Activity; a path slows down or stops with all its axes
   bool locks;                           // sets lock L
   bool locks_path;                      // sets lock V
   bool drops_held_drive;
@@ -137,12 +138,12 @@ constexpr const StopRow& stop_row(lang::Verb verb, std::uint32_t type = 0) {
   throw "not a stop";
 }
 
-// --- what remains to be done of a motion, and what discards it ---------------------------------------------
+// --- the remaining work of a motion, and what discards it --------------------------------------------------
 
 enum class Mark : std::uint8_t {
   paused_drive,    // the rest of a drive during a trigger's pause
-  external_drive,  // a drive that an EXD input has begun, and edges that wait for its end
-  trigger_hold,    // an axis that is held as long as a trigger's level lasts
+  external_drive,  // a drive that an EXD input has started, and the edges that wait for its end
+  trigger_hold,    // an axis that a trigger's level holds
 };
 inline constexpr std::size_t kMarks = 3;
 
@@ -157,7 +158,7 @@ enum class DiscardEvent : std::uint8_t {
 };
 inline constexpr std::size_t kDiscardEvents = 7;
 
-/// Says which event discards which mark. RESET_CARD and power-off discard all of them.
+/// Which event discards which mark. RESET_CARD and power-off discard all of them.
 inline constexpr std::array<std::array<bool, kDiscardEvents>, kMarks> kDiscards{{
     // stop, VSTOP, emergency stop, cause, another drive, DRV_START, triggers off
     {true, false, true, true, true, false, false},
@@ -170,8 +171,8 @@ constexpr bool takes_off(DiscardEvent event, Mark mark) {
 
 // --- clearing ----------------------------------------------------------------------------------------------
 
-/// The reasons to keep bits of an error code when CLEAR_STOP or CLEAR_VSTOP removes its lock (A-35, 6.2): the
-/// other lock, the emergency state, and inputs that are still active.
+/// The reasons to keep bits of an error code when CLEAR_STOP or CLEAR_VSTOP removes the corresponding lock
+/// (A-35, 6.2): the other lock, the emergency state, and inputs that are still active.
 struct Cleared {
   bool other_lock = false;
   bool emergency_state = false;
@@ -187,7 +188,7 @@ constexpr std::uint16_t error_left(std::uint16_t code, const Cleared& still) {
   return code & left;
 }
 
-/// Error bits of earlier motions that a starting drive clears.
+/// The error bits of earlier motions, which a starting drive clears.
 inline constexpr std::uint16_t kClearedByDrive =
     bit_of(ErrorBit::soft_limit_plus) | bit_of(ErrorBit::soft_limit_minus) | bit_of(ErrorBit::limit_plus) |
     bit_of(ErrorBit::limit_minus) | bit_of(ErrorBit::alarm) | bit_of(ErrorBit::emergency) |

@@ -1,4 +1,5 @@
-// The settings of section 3: what a command changes, and the Initial Table as the commands that make it.
+// The settings in section 3: which of them a command changes, and the Initial Table as the commands that
+// create it.
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -35,7 +36,7 @@ void limit_levels(BasicSettings& s, const Command& c) {
 void limit_stop(BasicSettings& s, const Command& c) { s.limit_stop_mode = byte_at(c, 1); }
 void near_home_level(BasicSettings& s, const Command& c) { s.near_home_level = byte_at(c, 1); }
 void home_level(BasicSettings& s, const Command& c) { s.home_level = byte_at(c, 1); }
-/// Sets soft limits. They and a ring exclude each other: the later one wins (3.15.1).
+/// Sets soft limits. Soft limits and a ring exclude each other: the later setting applies (3.15.1).
 void soft_limits(BasicSettings& s, const Command& c) {
   s.soft_limits = true;
   s.forward_soft_limit = c.signed_value(1);
@@ -87,7 +88,7 @@ constexpr HandlerRow<Verb, Change> kChanges[] = {
 };
 // clang-format on
 
-/// The settings that the Initial Table can hold, from the rows of the language.
+/// The settings that the Initial Table can contain, from the rows of the language.
 constexpr auto kSettingVerbs = [] {
   std::array<Verb, 18> verbs{};
   std::size_t count = 0;

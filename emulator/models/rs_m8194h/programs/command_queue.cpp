@@ -16,7 +16,7 @@
 
 namespace understudy::emulator::models::rs_m8194h {
 
-/// Returns the FIFO blocks that a command needs.
+/// Returns how many FIFO blocks a command needs.
 int CommandQueue::blocks_of(const lang::Command& command) const {
   const lang::CommandRow& row = command.row();
   constexpr lang::Verb kHolds[] = {lang::Verb::drv_hold, lang::Verb::drv_start, lang::Verb::clear_stop,
@@ -90,7 +90,7 @@ void CommandQueue::run() {
       fifo.stop_wait = 0;
     }
     if (fifo.waiting.empty() || steps <= 0) return;
-    // A copy, because the command may empty the FIFO.
+    // This is a copy, because the command may empty the FIFO.
     const lang::Command command = fifo.waiting.front();
     if (acts_on_.carry_out(command) == lang::Took::waits) return;
     if (!fifo.waiting.empty()) fifo.waiting.erase(fifo.waiting.begin());

@@ -1,4 +1,4 @@
-// RS-M8194H: the FIFO. It executes commands in their order, as many as a tick has room for.
+// RS-M8194H: the FIFO. It executes commands in order, as many as fit in a tick.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@
 
 namespace understudy::emulator::models::rs_m8194h {
 
-/// The commands that wait for their turn, and the axes of a STOP_WAIT that has begun and left the queue.
+/// The waiting commands, and the axes of a STOP_WAIT that has begun and has left the queue.
 struct Fifo {
   std::vector<lang::Command> waiting{};
   AxisMask stop_wait = 0;
@@ -40,19 +40,19 @@ class CommandQueue final : public Part {
   const QueueState& state() const { return state_; }
   bool is_empty() const { return state_.fifo.waiting.empty(); }
 
-  /// Takes a checked command from the window: executes or queues it, or returns why it cannot.
+  /// Handles a checked command from the window: executes or queues it, or returns why it cannot.
   lang::Fault take(const lang::Command& command);
-  /// Returns the fault of a command for which there is no room here, or in the macro being downloaded.
+  /// Returns the fault of a command that does not fit in the FIFO or in the macro that is being downloaded.
   lang::Fault why_no_room(const lang::Command& command) const;
-  /// Adds a command. The caller has checked the room.
+  /// Adds a command. The caller must have checked that there is room.
   void queue(const lang::Command& command);
   int free_blocks() const;
-  /// Executes as many commands as the tick has room for.
+  /// Executes as many commands as fit in the tick.
   void run();
-  /// Empties the queue; a STOP_WAIT that has begun is no longer in it, and continues.
+  /// Empties the queue. A STOP_WAIT that has begun is no longer in the queue, so it continues.
   void clear() { state_.fifo.waiting.clear(); }
   void clear_all() { state_.fifo = {}; }
-  /// Drops the command that the queue is waiting for: a STOP_WAIT, or its first command.
+  /// Drops the command for which the queue is waiting: a STOP_WAIT, or the first command.
   void drop_first();
   void wait_for(AxisMask axes) { state_.fifo.stop_wait = axes; }
 

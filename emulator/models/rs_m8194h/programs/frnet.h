@@ -1,4 +1,4 @@
-// RS-M8194H: FRnet, whose scan transfers the input and output words (1.1, 5).
+// RS-M8194H: FRnet, which transfers the input and output words in scans (1.1, 5).
 #pragma once
 
 #include <array>
@@ -15,10 +15,10 @@ using FrnetWords = std::array<std::uint16_t, kFrnetGroups>;
 
 struct FrnetState {
   FrnetWords outputs{};    // the outputs as set
-  FrnetWords sent{};       // the outputs as sent by the last scan
-  FrnetWords inputs{};     // the inputs as found by the last scan
-  Tick powered_at = 0;     // the tick from which scans are counted
-  bool unscanned = false;  // inputs differ from those of the last scan
+  FrnetWords sent{};       // the outputs that the last scan sent
+  FrnetWords inputs{};     // the inputs that the last scan read
+  Tick powered_at = 0;     // the tick from which scans count
+  bool unscanned = false;  // the inputs differ from those in the last scan
 
   bool operator==(const FrnetState&) const = default;
 };
@@ -37,11 +37,11 @@ class Frnet final : public Part {
   void write_bit(std::size_t group, std::size_t channel, bool is_on);
   void clear_outputs() { state_.outputs.fill(0); }
 
-  /// Compares the inputs with those of the last scan. Call it when they may have changed.
+  /// Compares the inputs with those in the last scan. Call this when they may have changed.
   void check_inputs() { state_.unscanned = words_now() != state_.inputs; }
   bool scans_at(Tick tick) const;
   void scan();
-  /// Scans for the first time after power-up.
+  /// Performs the first scan after power-up.
   void scan_first();
   /// Returns the next tick after `done` in which a scan changes anything, or kNever.
   Tick next_active_tick(Tick done) const;

@@ -44,7 +44,7 @@ std::string areas_of(const lang::CommandRow& row, bool is_macro_line) {
   return row.use.in_mp && row.use.in_isr ? "MP ISR" : row.use.in_mp ? "MP" : "ISR";
 }
 
-/// All 229 codes. The size is in blocks of the FIFO or in lines of a macro.
+/// All 229 codes. Sizes are in FIFO blocks or macro lines.
 class Instructions {
  public:
   Instructions() {
@@ -71,13 +71,13 @@ class Instructions {
                      .meaning = row.meaning});
   }
 
-  // Rows point into both; a deque does not move its elements.
+  // The rows point into these two containers. A deque does not move its elements.
   std::deque<std::string> texts_;
   std::deque<std::vector<OperandRow>> operands_;
   std::vector<InstructionRow> rows_;
 };
 
-/// Returns the command that opens a macro; close() returns the one that closes it.
+/// Returns the command that opens a macro. close() returns the command that closes it.
 lang::Command create(const lang::MacroName& name) {
   lang::Command command{
       .code = lang::real_time_code(name.is_isr ? lang::Verb::isr_create : lang::Verb::mp_create)};
@@ -138,7 +138,7 @@ class Listing final : public ProgramLanguage, public ProgramCells {
             .highest = 0xFFFF,
             .max_rows = 7000};
   }
-  /// Returns the messages of the downloads. Triggers are not sent to the window.
+  /// Returns the download messages. Triggers are not sent through the window.
   std::vector<CellRow> assemble(std::string_view text, const DeviceSettings& settings) const override {
     const lang::ParsedListing parsed = parse(text, settings);
     if (!parsed.errors.empty()) throw ProgramError(mistakes_of(parsed.errors));

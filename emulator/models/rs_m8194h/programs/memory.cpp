@@ -32,7 +32,7 @@ namespace understudy::emulator::models::rs_m8194h {
 
 namespace {
 
-/// A macro of 512 lines with the longest command is shorter.
+/// A macro of 512 lines is shorter than this, even with the longest command.
 constexpr std::size_t kLongestMacro = 100'000;
 constexpr std::size_t kLongestLine = 200;
 constexpr std::size_t kLongestTable = 4'000;
@@ -153,7 +153,7 @@ void Memory::register_written(const RegisterRow& row, std::size_t slot) {
 }
 
 BasicSettings Memory::factory_settings() const {
-  // Figure 3's soft limits and ring are switched off.
+  // The soft limits and the ring in figure 3 are switched off.
   if (!chose(option("factory_values", "of_figure_3"))) return {};
   return {.max_v = 8'000, .filtered = 1, .filter_time = 2};
 }

@@ -1,5 +1,5 @@
-// RS-M8194H: the non-volatile memory, other than registers: macros and triggers as text, the Initial Table by
-// the names of its settings.
+// RS-M8194H: the non-volatile memory, except the registers: macros and triggers as text, and the Initial
+// Table by the names of its settings.
 #pragma once
 
 #include <array>
@@ -27,15 +27,16 @@ inline constexpr std::string_view kTriggerBlocks = "triggers";
 
 inline constexpr std::string_view kInitialBlocks = "initial";
 
-/// Macros are named by their number, triggers by their channel ("8.0"), the Initial Table by its axes.
+/// The names of macros are their numbers, those of triggers are their channels ("8.0"), and those of the
+/// Initial Table are its axes.
 std::span<const BlockKind> block_kinds();
 
 using InitialTable = std::array<BasicSettings, kAxes>;
-/// Stores the Initial Table as the commands that produce it from the factory settings.
+/// Stores the Initial Table as the commands that create it from the factory settings.
 void keep_initial_table(TextBlocks& blocks, const InitialTable& table, const BasicSettings& factory);
 InitialTable initial_table_of(const TextBlocks& blocks, const BasicSettings& factory);
 
-/// Everything that survives power-off, and the registers' image.
+/// Everything that survives power-off, and the register image.
 struct MemoryState {
   InitialTable initial_table{};
   TextBlocks blocks{};  // macros, triggers and the Initial Table, as text
@@ -62,7 +63,7 @@ class Memory final : public Part {
   /// Sets a register, and stores it if it is retentive.
   void put(std::size_t slot, std::uint32_t bits);
   void clear(std::size_t first, std::size_t count);
-  /// Access VAR0 to VAR511 and bVAR0 to bVAR127.
+  /// These access VAR0 to VAR511 and bVAR0 to bVAR127.
   std::int32_t variable(std::size_t number) const {
     return static_cast<std::int32_t>(state_.image[kFirstVarSlot + number]);
   }
@@ -88,7 +89,7 @@ inline std::uint8_t byte_at(const lang::Command& command, std::size_t i) {
   return static_cast<std::uint8_t>(command.values[i]);
 }
 
-/// Applies a command of section 3 to settings; other commands have no effect.
+/// Applies a command of section 3 to the settings. Other commands have no effect.
 void apply_setting(BasicSettings& settings, const lang::Command& command);
 
 }  // namespace understudy::emulator::models::rs_m8194h

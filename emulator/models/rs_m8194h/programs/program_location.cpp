@@ -1,4 +1,4 @@
-// Reports the present lines of the macros to observers.
+// Reports the current lines of the macros to observers.
 #include <cstddef>
 #include <string>
 #include <string_view>
@@ -29,7 +29,7 @@ std::string_view awaited_by(lang::Hold hold) {
   return "";
 }
 
-/// Returns the line in the text of a macro's line `number`, counted after the macro's head, "MP 21".
+/// Returns the text line of line `number` of a macro, counted from the macro's head, "MP 21".
 int line_in(std::string_view text, const std::string& head, int number) {
   for (const TextLine line : TextLines(text)) {
     if (line.text == head) return line.number + 1 + number;
@@ -46,14 +46,15 @@ std::vector<ProgramLocation> Programs::locations() const {
     if (!run.is_alive()) return;
     if (text.empty()) text = this->text();
     const lang::Level& level = run.levels.back();
-    // An ISR may call an MP: the lowest level shows which of the two is running.
+    // An ISR can call an MP: the lowest level shows which of the two is running.
     const lang::MacroName name{run.is_isr && run.levels.size() == 1, level.number};
     ProgramLocation place;
     place.program = to_string(name);
     place.state =
         run.hold == lang::Hold::nothing ? ProgramLocation::State::running : ProgramLocation::State::waiting;
     place.waits_for = awaited_by(run.hold);
-    // The run has left a line that began to wait, but not a line that the machine does not accept yet.
+    // A line that has begun to wait is already complete, but a line that the machine does not accept yet is
+    // not.
     const bool is_left =
         run.hold == lang::Hold::timer || run.hold == lang::Hold::axes || run.hold == lang::Hold::frnet;
     const int line = level.line - (is_left ? 1 : 0);

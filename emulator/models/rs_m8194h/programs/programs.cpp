@@ -154,7 +154,7 @@ std::string Programs::text() const {
 
 // --- running ---------------------------------------------------------------------------------------------
 
-/// Notifies an observer of the existing macros.
+/// Notifies the observer of the existing macros.
 void Programs::notify_watch() const {
   if (acts_on_.watch() == nullptr || !is_alive()) return;
   std::uint64_t mark = hash_of({});
@@ -208,7 +208,7 @@ void Programs::mp_ended() {
   status_.pass(kMpFinished);
 }
 
-/// Returns the ISR of the next mark. Marks that call nothing are discarded.
+/// Returns the ISR of the next mark. Marks that do not call an ISR are discarded.
 int Programs::take_isr() {
   while (interrupts_.is_due()) {
     const IsrMark mark = interrupts_.take_mark();
