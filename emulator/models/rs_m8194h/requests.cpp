@@ -63,7 +63,7 @@ constexpr Addresses kOwn[] = {
 /// The settings of the Ethernet box (12.2.3).
 constexpr Addresses kIpSettings = addresses_of(Table::holding, "Lock_IP{}", "RS-M8194H_Gateway{}");
 
-/// Inputs that may be cleared by reading them: RINT as a word and bit by bit, then the factors.
+/// Inputs that reading may clear: RINT as a word and as bits, then the factors.
 constexpr Addresses kRintWord = addresses_of(Table::input, "RINT_STATE_ALL");
 constexpr Addresses kRintBits = addresses_of(Table::input, "Line_Scan_Completed", "Module_Error");
 constexpr Addresses kFactorWords = addresses_of(Table::input, "INT factor 0 PULSE", "INT factor 9 SYNC");
@@ -79,12 +79,12 @@ bool is_own(Table table, std::size_t address) {
                      [&](const Addresses& own) { return own.has(table, address); });
 }
 
-/// Returns true if a counter or a variable, which has two words, begins there.
+/// Returns true if a counter or a variable, which occupies two words, begins there.
 bool begins_in(const Addresses& pairs, Table table, std::size_t address) {
   return pairs.has(table, address) && (address - pairs.first) % 2 == 0;
 }
 
-/// Returns how many commands a valid write to the tables becomes.
+/// Returns how many commands a valid write to the tables corresponds to.
 int commands_of(const RegisterRequest& request) {
   if (!request.is_write() || request.table != Table::holding || request.first >= kWindow) return 0;
   int commands = 0;
@@ -95,7 +95,7 @@ int commands_of(const RegisterRequest& request) {
   return commands;
 }
 
-/// Returns the macro line that corresponds to a write to the tables, if there is one.
+/// Returns the macro line that corresponds to a write to the tables, if any.
 std::optional<lang::Command> line_at(Table table, std::size_t address, std::uint32_t value) {
   if (table != Table::holding) return std::nullopt;
   const auto line = [](lang::Verb verb, std::uint32_t first, std::uint32_t second) {
@@ -121,7 +121,7 @@ std::optional<lang::Command> line_at(Table table, std::size_t address, std::uint
   return std::nullopt;
 }
 
-/// Returns true if the request gives a variable a value beyond the range of positions.
+/// Returns true if the request writes a value to a variable that is outside the range of positions.
 bool writes_beyond(const RegisterRequest& request, bool low_word_first) {
   if (!request.is_write() || request.table != Table::holding) return false;
   for (std::size_t i = 0; i + 1 < request.count; i += 2) {
@@ -207,7 +207,7 @@ bool Requests::diverts(const Place& place, std::uint32_t bits) {
   return true;
 }
 
-/// Clears what was read, if so chosen; otherwise reading clears nothing.
+/// Clears what was read, if a choice requires it; by default, reading clears nothing.
 void Requests::read_answered(const RegisterRequest& request) {
   if (request.table != Table::input) return;
   InterruptState& interrupts = module_.interrupts.state();

@@ -1,5 +1,5 @@
-// RS-M8194H: requests before and after the module handles them. Admits them, turns writes to the tables into
-// lines of a macro or, if so chosen, into one message, and records exceptions.
+// RS-M8194H: handles requests before and after the module does. Admits them, converts writes to the tables
+// into macro lines or (a choice) into one message, and records exceptions.
 #pragma once
 
 #include <cstddef>
@@ -19,13 +19,13 @@ class Requests final : public Part {
   Requests(const Ground& ground, RequestState& state, Module& module)
       : Part(ground), state_(state), module_(module) {}
 
-  /// `bank` determines which addresses have a register.
+  /// `bank` determines which addresses have registers.
   DeviceAnswer admits(const RegisterRequest& request, Checked checked, const RegisterBank& bank) const;
   bool diverts(const Place& place, std::uint32_t bits);
   void read_answered(const RegisterRequest& request);
   void exception_answered(const RefusedRequest& request);
 
-  // --- writes that are one message if so chosen (whole_writes.cpp) -----------------------------------
+  // --- writes that a choice combines into one message (whole_writes.cpp) ----------------------------
   bool takes_whole(const RegisterRequest& request) const;
   DeviceAnswer take_whole(const RegisterRequest& request);
 

@@ -1,4 +1,4 @@
-// RS-M8194H: the commands of section 3. Each setting is a row, which says what the command changes in the
+// RS-M8194H: the commands of section 3. Each setting has a row, which defines what the command changes in the
 // basic settings of the axes or, with an INITIAL axis code, of the Initial Table.
 #pragma once
 
@@ -23,7 +23,7 @@ void for_each_axis(AxisMask axes, auto visit) {
   }
 }
 
-/// Scales the speeds as if the chip's counts had stayed the same while the size of a count changed.
+/// Scales the speeds as if the chip's counts stayed the same while the size of a count changed.
 inline void scale_speeds(AxisUnit& unit, std::uint32_t from_max_v, std::uint32_t to_max_v) {
   SpeedSettings& speed = unit.speed;
   for (std::uint32_t* const number :
@@ -34,14 +34,14 @@ inline void scale_speeds(AxisUnit& unit, std::uint32_t from_max_v, std::uint32_t
   }
 }
 
-/// Returns true if, under the chosen option, an enabled ring keeps soft limits off, or soft limits keep a
-/// ring off.
+/// Returns true if a choice prevents soft limits because a ring is enabled, or a ring because soft limits are
+/// enabled.
 inline bool is_kept_off(const Module& it, const BasicSettings& present, Verb verb) {
   const bool meets =
       (verb == Verb::set_slmt && present.ring) || (verb == Verb::vring_enable && present.soft_limits);
   return meets && it.chose(option("ring_and_soft_limits", "the_earlier_keeps_the_other_off"));
 }
-/// Copies soft limits to the comparators' registers, if soft limits are chosen to use the comparators.
+/// Copies soft limits to the comparator registers, if a choice makes soft limits use the comparators.
 inline void take_comparators(const Module& it, AxisUnit& unit) {
   const BasicSettings& basic = unit.basic;
   if (!basic.soft_limits || !it.chose(option("soft_limits_and_comparators", "become_the_limits"))) return;
@@ -49,8 +49,8 @@ inline void take_comparators(const Module& it, AxisUnit& unit) {
                   Compare{.value = basic.reverse_soft_limit, .source = basic.soft_limit_source}};
 }
 
-/// Applies a setting of section 3, whose axes are in the first parameter. Its row
-/// (programs/basic_settings.cpp) says what it changes.
+/// Applies a setting of section 3 to the axes in the first parameter. The setting's row is in
+/// programs/basic_settings.cpp.
 inline Took set_basic(Module& it, const Command& command) {
   const bool is_initial = (command.values[0] & lang::kInitial) != 0;
   for_each_axis(axes_at(command, 0), [&](std::size_t a) {
@@ -68,7 +68,7 @@ inline Took set_basic(Module& it, const Command& command) {
     const std::int64_t counted = it.scans.travel(a);
     apply_basic(it.chip.unit(a), it.chip.motor(a), settings, it.machine_options().axis);
     LineScan& scan = it.chip.scan(a);
-    // the encoder counts differently from here on
+    // from here on, the encoder counts differently
     if (scan.running) scan.begin += it.scans.travel(a) - counted;
     if (command.verb() == Verb::set_slmt) take_comparators(it, it.chip.unit(a));
     it.chip.rearm(a);
@@ -105,7 +105,7 @@ inline Took reset_card(Module& it, const Command&) {
   return Took::done;
 }
 inline Took clear_buffer(Module& it, const Command&) {
-  // A STOP_WAIT that has begun is no longer in the buffer, and continues.
+  // A STOP_WAIT that has begun is no longer in the buffer, so it continues.
   it.queue.clear();
   if (it.chose(option("clear_buffer_held_drives", "dropped"))) {
     for (AxisUnit& unit : it.chip.state().units) unit.held_drive = {};

@@ -1,4 +1,4 @@
-// RS-M8194H: the whole state, as a value: the states of its parts.
+// RS-M8194H: the whole state as a value: the states of its parts.
 #pragma once
 
 #include <array>
@@ -21,7 +21,7 @@ namespace understudy::emulator::models::rs_m8194h {
 /// What the RS-M8194H itself stores about requests.
 struct RequestState {
   std::uint16_t illegal_reason = 0;                      // input 102
-  std::array<std::uint16_t, kWindowWords> parameters{};  // written before their command, if so chosen
+  std::array<std::uint16_t, kWindowWords> parameters{};  // written before their command (a choice)
 
   bool operator==(const RequestState&) const = default;
 };

@@ -1,4 +1,4 @@
-// The fields of an RS-M8194H's state (base/state/fields.h), in the order of the bytes.
+// The fields of an RS-M8194H's state (base/state/fields.h), in the order of the saved bytes.
 #pragma once
 
 #include <algorithm>
@@ -21,7 +21,7 @@ struct StateOf<emulator::models::rs_m8194h::Fifo> {
   using Value = emulator::models::rs_m8194h::Fifo;
   static constexpr auto fields = FieldList{field<&Value::waiting>(), field<&Value::stop_wait>()};
   static void check(const Value& fifo) {
-    // How many blocks a command occupies is a choice, but each occupies at least one.
+    // The number of blocks per command is a choice, but it is at least one.
     require_state(fifo.waiting.size() <= static_cast<std::size_t>(emulator::models::rs_m8194h::kFifoBlocks),
                   "the FIFO exceeds its capacity");
     for (const auto& command : fifo.waiting) {
@@ -73,7 +73,7 @@ consteval std::size_t counted() {
   static_assert(state_fields::has_members<Part, count>(), "a part of the state has different members");
   return count;
 }
-/// The members of the state are those of its parts, which are counted one by one.
+/// The members of the state are those of its parts, which are counted separately.
 inline constexpr std::size_t kStateMembers =
     counted<ChipState, 10>() + counted<StreamState, 2>() + counted<DriveState, 2>() +
     counted<InterruptState, 5>() + counted<QueueState, 2>() + counted<ProgramState, 8>() +

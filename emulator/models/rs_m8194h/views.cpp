@@ -28,8 +28,8 @@ constexpr std::uint32_t kModuleId = 0x44;
 
 std::size_t axis_number(Cell cell) { return static_cast<std::size_t>(cell.axis); }
 Value bit_of_word(std::uint32_t word, int number) { return word >> number & 1U; }
-/// Returns false for an address of U's signals that a choice leaves out: 380 as printed (arguments from 16
-/// on), or 280 by the pattern of the other axes.
+/// Returns false for an address of U's signals that a choice omits: 380 as printed (arguments from 16 on), or
+/// 280 by the pattern of the other axes.
 bool is_served(const Module& it, Cell cell) {
   if (cell.argument >= 16) return !it.chose(option("raw_signals_of_u", "at_280"));
   return cell.argument < 8 || !it.chose(option("raw_signals_of_u", "at_380"));
@@ -105,7 +105,7 @@ Value current_acceleration(const Module& it, Cell cell) {
   const std::size_t axis = axis_number(cell);
   double size = 0;
   if (together.takes(axis)) {
-    // The axis's share of the acceleration along the path.
+    // The axis's component of the acceleration along the path.
     const motion::Sample along = together.run.sample(it.now());
     const double share =
         along.speed_u_s > 0 ? std::abs(together.speed_pps(axis, it.now())) / along.speed_u_s : 0;
@@ -158,13 +158,13 @@ Value interpolation_ready(const Module& it, Cell) {
   if (it.is_absent()) return 0;
   const Paths& paths = it.chip.paths();
   if (!paths.together.engaged) return 1;
-  // A stream accepts one segment in advance.
+  // A stream accepts one segment ahead of the running one.
   return paths.runs == Paths::Runs::stream && paths.open && it.streams.has_room() ? 1 : 0;
 }
 Value driving_axes(const Module& it, Cell) { return it.chip.driving(); }
 Value rsm_state(const Module& it, Cell) { return static_cast<Value>(it.programs.state().rsm); }
 Value module_state(const Module& it, Cell) {
-  // The numbering of 4.16.2. States that pass within a tick are shown only if so chosen.
+  // The numbering in 4.16.2. A choice decides whether states that pass within a tick are shown.
   constexpr Value kDownloading = 3;
   constexpr Value kRunsMp = 5;
   constexpr Value kRunsIsr = 7;

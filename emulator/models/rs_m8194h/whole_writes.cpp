@@ -1,4 +1,4 @@
-// Writes to the tables that are one message if so chosen: two words as one number for a group of FRnet
+// Writes to the tables that a choice treats as one message: two words as one number for a group of FRnet
 // outputs (5.2.4), and coils that switch servos although they are of type R (12.4.2).
 #include <cstddef>
 #include <cstdint>
@@ -83,7 +83,7 @@ DeviceAnswer Requests::take_whole(const RegisterRequest& request) {
   return Refusal::none;
 }
 
-/// Writes a number, or the value of the variable that it denotes, to a group of outputs.
+/// Writes a number, or the value of the variable to which the number refers, to a group of outputs.
 void Requests::write_group(std::size_t group, std::uint32_t number) {
   if (module_.programs.is_downloading() && machine_options().table_writes_become_lines) {
     module_.programs.add_line(group_line(group, number));

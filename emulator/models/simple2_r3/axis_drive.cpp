@@ -22,7 +22,7 @@ __extension__ using Wide = __int128;
 
 int sign_of(std::int64_t value) { return value < 0 ? -1 : value > 0 ? +1 : 0; }
 
-/// Returns the difference of two counters, which may wrap.
+/// Returns the difference between two counters, which may wrap.
 std::int64_t difference(std::int64_t later, std::int64_t earlier) {
   return static_cast<std::int64_t>(static_cast<std::uint64_t>(later) - static_cast<std::uint64_t>(earlier));
 }
@@ -35,7 +35,7 @@ bool alarm_forbids(const AxisState& axis) {
   return is_on(axis, motion::Signal::alarm) && axis.motor.settings.at_alarm != motion::Reaction::ignore;
 }
 
-/// Returns true if the limit on that side forbids motion.
+/// Returns true if the limit on this side forbids motion.
 bool limit_forbids(const AxisState& axis, int direction) {
   const motion::AxisSettings& settings = axis.motor.settings;
   if (direction > 0) {
@@ -50,7 +50,7 @@ std::int64_t target_urpm(const AxisState& axis) {
   return limit_forbids(axis, sign_of(axis.target_urpm)) ? 0 : axis.target_urpm;
 }
 
-/// Runs one tick of velocity mode, which is two steps of 0.5 ms, and returns its pulses.
+/// Runs one tick of velocity mode, which is two steps of 0.5 ms, and returns the number of pulses.
 std::int64_t velocity_pulses(AxisState& axis, const DriveSettings& settings) {
   const std::int64_t target = final_urpm(axis, settings);
   std::int64_t pulses = 0;
@@ -59,7 +59,7 @@ std::int64_t velocity_pulses(AxisState& axis, const DriveSettings& settings) {
     const std::int64_t speed_before = axis.speed_urpm;
     axis.speed_urpm = std::clamp(target, axis.speed_urpm - step, axis.speed_urpm + step);
     const std::int64_t speed = settings.pulses_by_speed_before ? speed_before : axis.speed_urpm;
-    // The phase is at most 6e12 because of the speed limit, plus a remainder of 1.2e11.
+    // Because of the speed limit, the phase is at most 6e12, plus a remainder of 1.2e11.
     axis.velocity_phase += speed * static_cast<std::int64_t>(settings.pulses_per_revolution);
     pulses += axis.velocity_phase / kVelocityPhase;
     axis.velocity_phase %= kVelocityPhase;
@@ -109,7 +109,7 @@ void remember_encoder(AxisState& axis, Tick tick) {
 }
 
 void prefetch(const AxisState& axis, Tick tick) {
-  understudy::prefetch(&axis.motor, 2 * kCacheLine);  // everything that the middle of a move needs
+  understudy::prefetch(&axis.motor, 2 * kCacheLine);  // what ticks during a move need
   prefetch_line(&axis.mode);
   prefetch_line(&axis.encoder_history[ring_place(tick)]);
 }
@@ -222,7 +222,7 @@ std::int64_t remaining_pulses(const AxisState& axis) {
 
 void keep_target(AxisState& axis, std::int64_t pulses, Tick now) {
   motion::Axis& motor = axis.motor;
-  // Distances count from where the move began, in the move's direction.
+  // Distances count from the beginning of the move, in its direction.
   motor.change_distance(motor.target_pulses - pulses * motor.drive.direction, false, now);
 }
 
@@ -233,7 +233,7 @@ motion::Follower follower_by(SyncSettings settings) {
     settings.numerator /= common;
     settings.denominator /= common;
   }
-  // Still too large: no real encoder has that many counts, so the ratio may be slightly off.
+  // The numbers are still too large: no real encoder has this many counts, so the ratio may be slightly off.
   while (is_too_large()) {
     settings.numerator /= 2;
     settings.denominator = std::max<std::int64_t>(settings.denominator / 2, 1);
@@ -250,7 +250,7 @@ motion::HomingProgram homing_to_first_edge(const motion::Simple2Homing& how) {
   if (how.speed.top_speed_u_s == 0) return motion::simple2_homing(how);
   const auto direction = static_cast<std::int8_t>(how.direction < 0 ? -1 : +1);
   motion::HomingProgram program{.speeds = {how.speed}};
-  // There is no step 2: home is found.
+  // There is no step 2, so home is found.
   program.add({.direction = direction, .marks = true, .next = 2, .if_limit = 1});
   program.add({.direction = static_cast<std::int8_t>(-direction), .marks = true});
   return program;
@@ -260,7 +260,7 @@ std::int64_t encoder_rpm(const AxisState& axis, Tick now, const SpeedMeter& mete
   const std::int64_t then = axis.encoder_history[ring_place(now - meter.window)];
   const Wide counts = Wide{axis.encoder_counts} - then;
   const std::int64_t windows_a_minute = 60'000 / meter.window;
-  // Rounds to the nearest value; otherwise a steady 100 RPM would be shown as 99.
+  // Round to the nearest value; otherwise, a constant 100 RPM would be shown as 99.
   const Wide half = Wide{meter.counts_per_revolution / 2} * (counts < 0 ? -1 : 1);
   Wide rpm = (counts * windows_a_minute + half) / meter.counts_per_revolution;
   if (meter.wraps) return static_cast<std::int16_t>(static_cast<std::uint16_t>(rpm));
@@ -294,7 +294,7 @@ Tick next_active_tick(const AxisState& axis, Tick done) {
   }
   const bool stands_in_velocity = runs_velocity(axis) && !is_moving(axis);
   if (motor.moving() && motor.task != motion::Task::hanging && !stands_in_velocity) return done + 1;
-  if (axis.mode == Mode::sync) return done + 1;  // reads the encoder's counts even if it may not follow
+  if (axis.mode == Mode::sync) return done + 1;  // reads the encoder's counts even if it must not follow
   if (done <= axis.encoder_changed + AxisState::kSpeedWindow) return done + 1;
   return kNever;
 }

@@ -1,5 +1,5 @@
-// Runs many ticks of an axis in one step: computes its plan and the counting of velocity mode in closed form,
-// and records the encoder's last 100 ticks as single ticks would have done.
+// Runs many ticks of an axis in one step: computes its plan and velocity mode in closed form, and records the
+// encoder's last 100 ticks exactly as single ticks would.
 #include <algorithm>
 #include <cstdint>
 
@@ -13,15 +13,15 @@ namespace {
 
 __extension__ using Wide = __int128;
 
-/// Returns the change of speed in each 0.5 ms step of velocity mode.
+/// Returns the change of speed per 0.5 ms step of velocity mode.
 std::int64_t change_of_speed(const AxisState& axis, const DriveSettings& settings) {
   const std::int64_t left = final_urpm(axis, settings) - axis.speed_urpm;
   const std::int64_t step = settings.velocity_step_urpm;
   return left == 0 ? 0 : left < 0 ? -step : step;
 }
 
-/// Returns for how many ticks the speed changes by that amount without a change of its sign. The step that
-/// arrives is not included.
+/// Returns for how many ticks the speed changes by that amount per step without changing its sign. The step
+/// that reaches the target is not included.
 Tick even_ticks(const AxisState& axis, const DriveSettings& settings, Tick limit) {
   const std::int64_t change = change_of_speed(axis, settings);
   if (change == 0) return limit;
@@ -33,7 +33,7 @@ Tick even_ticks(const AxisState& axis, const DriveSettings& settings, Tick limit
   return std::min(limit, steps / 2);
 }
 
-/// Returns the phase after this many such ticks, whole pulses included.
+/// Returns the phase after this many such ticks, including whole pulses.
 Wide phase_after(const AxisState& axis, const DriveSettings& settings, Tick ticks) {
   const Wide steps = Wide{2} * ticks;
   const Wide changes = steps * (settings.pulses_by_speed_before ? steps - 1 : steps + 1) / 2;
@@ -41,8 +41,8 @@ Wide phase_after(const AxisState& axis, const DriveSettings& settings, Tick tick
   return axis.velocity_phase + speeds * settings.pulses_per_revolution;
 }
 
-/// Returns the pulses of this many ticks, in the commanded direction. Phases have one sign, or reach it
-/// without a pulse, so whole pulses come out as in single steps.
+/// Returns the pulses of this many ticks, in the commanded direction. All phases have the same sign, or reach
+/// it without a pulse, so the whole pulses are the same as with single steps.
 std::int64_t pulses_ahead(const AxisState& axis, const SkipContext& skip_context, Tick tick) {
   if (tick == skip_context.done) return 0;
   if (runs_velocity(axis)) {
@@ -52,7 +52,7 @@ std::int64_t pulses_ahead(const AxisState& axis, const SkipContext& skip_context
   return axis.motor.travel_ahead(tick) - axis.motor.travel_pulses;
 }
 
-/// Returns the machine's room as a range of travel.
+/// Converts the machine's room to a range of travel.
 motion::Axis::TravelRange range_of(const AxisState& axis, const SkipContext& skip_context) {
   const PulseRoom room = skip_context.ahead->room(skip_context.axis);
   const std::int64_t at = axis.motor.travel_pulses;
@@ -83,7 +83,7 @@ Tick quiet_in_velocity(const AxisState& axis, const SkipContext& skip_context, T
   return inside;
 }
 
-/// Returns the encoder's count at the end of `tick`.
+/// Returns the encoder count at the end of `tick`.
 std::int64_t counts_ahead(const AxisState& axis, const SkipContext& skip_context, Tick tick) {
   const std::int64_t commanded = pulses_ahead(axis, skip_context, tick);
   if (commanded == 0 || !skip_context.ahead->has_encoder(skip_context.axis)) return axis.encoder_counts;
@@ -92,7 +92,7 @@ std::int64_t counts_ahead(const AxisState& axis, const SkipContext& skip_context
                    skip_context.encoder_reversed);
 }
 
-/// Records what remember_encoder() would have recorded in each of the ticks.
+/// Records what remember_encoder() would have recorded in these ticks.
 void remember_skip(AxisState& axis, const SkipContext& skip_context, Tick tick) {
   const Tick next = skip_context.done + 1;
   const std::int64_t first = counts_ahead(axis, skip_context, next);
@@ -102,7 +102,7 @@ void remember_skip(AxisState& axis, const SkipContext& skip_context, Tick tick) 
     axis.encoder_history[ring_place(each)] = last == first ? last : counts_ahead(axis, skip_context, each);
   }
   if (last == first) return;
-  // Counts change in one direction, so a binary search finds the first tick with the last count.
+  // Counts change in only one direction, so a binary search finds the first tick with the last count.
   Tick before = next;
   Tick since = tick;
   while (since - before > 1) {

@@ -1,4 +1,4 @@
-// The registers of each axis, in a form that lets the same code serve both axes.
+// The registers of each axis, in a form that allows the same code to be used for both axes.
 #pragma once
 
 #include <array>
@@ -8,7 +8,7 @@
 
 namespace understudy::emulator::models::simple2_r3 {
 
-/// The registers that assign functions to pins are consecutive, DOUT 0 to 3 first.
+/// The registers that assign functions to pins are consecutive and begin with DOUT 0 to 3.
 inline constexpr std::size_t kFirstAssignment = slot("DOUT0_Aaxis_SVON");
 inline constexpr int kAssignmentCount = 14;
 

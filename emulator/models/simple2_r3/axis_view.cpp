@@ -58,7 +58,7 @@ Event AxisView::event_by_direction(int direction, Event towards, Event away) con
 
 motion::SpeedLaw AxisView::law_of(std::uint32_t speed_rpm, std::uint32_t acceleration_10ms,
                                   std::uint32_t deceleration_10ms) const {
-  // Times of 0 count as 1 (appendix A), which is 10 ms unless a choice makes it shorter.
+  // A time of 0 counts as 1 (appendix A), which is 10 ms unless a choice makes it shorter.
   const double min_s = chose(option("least_ramp", "1ms"))     ? 0.001
                        : chose(option("least_ramp", "500us")) ? 0.0005
                                                               : 0.01;
@@ -96,7 +96,7 @@ motion::Follower AxisView::sync_follower() const {
     sync.numerator *= of_axis;
     sync.denominator *= std::max<std::int64_t>(image[slots().encoder_resolution], 1);
   }
-  // The slope for each 5 ms; 0 means no limit.
+  // The slope per 5 ms; 0 means no limit.
   const std::uint32_t slope = image[slots().sync_slope];
   if (slope != 0)
     sync.slope_pps =

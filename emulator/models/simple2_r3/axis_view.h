@@ -1,4 +1,4 @@
-// A read-only view of one axis, with everything that follows from its registers, signals and choices.
+// A read-only view of one axis, including everything that follows from its registers, signals and choices.
 #pragma once
 
 #include <cstddef>
@@ -26,14 +26,14 @@ class AxisView {
   const AxisSlots& slots() const { return kAxisSlots[index()]; }
   bool alarm() const { return signals().alarm(number_); }
 
-  /// Returns the pulses per revolution; never 0, because callers divide by it. The register can hold
-  /// anything, because a host may write half of it alone.
+  /// Returns the pulses per revolution. The result is never 0, because callers divide by it. The register may
+  /// contain any value, because a host can write half of it alone.
   std::uint32_t resolution() const;
   std::uint32_t velocity_step_urpm() const;
   /// Returns true if DIR_Polarity reverses the pulses.
   bool reversed() const { return view_.image[slots().direction_polarity] != 0; }
   bool encoder_reversed() const { return view_.image[slots().encoder_polarity] != 0; }
-  /// Return the pulses as they leave the device.
+  /// These return the pulses that the device sends.
   std::int64_t sent(std::int64_t commanded) const { return reversed() ? -commanded : commanded; }
   double speed_pps() const;
   std::int64_t pulses_to_come() const { return sent(state().motor.pulses_to_come()); }
@@ -57,16 +57,17 @@ class AxisView {
   /// Returns true if commands need Ready, and it is missing.
   bool lacks_ready() const;
   bool is_refused_as_too_fast(std::int64_t milli_rpm) const;
-  /// Returns the axis's reaction to an event, in its present state and under the chosen options.
+  /// Returns the reaction of the axis to an event, in its present state and with the selected options.
   Outcome reaction(Event event) const;
-  /// Notes that the axis, in its present activity, meets the event (device/decisions.h).
+  /// Records that the event has occurred in the axis's present activity (device/decisions.h).
   void note(Phase phase, Event event) const;
-  /// Returns `towards` if a limit that is on forbids that direction, otherwise `away`.
+  /// Returns `towards` if an active limit forbids this direction, otherwise `away`.
   Event event_by_direction(int direction, Event towards, Event away) const;
-  /// Returns the law of a position move: appendix A and the 100 kHz limit.
+  /// Returns the speed law of a position move, which appendix A and the 100 kHz limit determine.
   motion::SpeedLaw law_of(std::uint32_t speed_rpm, std::uint32_t acceleration_10ms,
                           std::uint32_t deceleration_10ms) const;
-  /// Returns the speed in velocity and sync mode, signed by the axis's direction: 0 if a limit blocks it.
+  /// Returns the speed in velocity and sync mode, with the sign of the axis's direction, or 0 if a limit
+  /// blocks the axis.
   double speed_of_pulses() const;
   motion::Follower sync_follower() const;
   /// Returns the count of the encoder that sync mode follows.
@@ -77,7 +78,7 @@ class AxisView {
   const Setup& setup() const { return setup_; }
 
  private:
-  /// Returns the resolution in velocity mode: the value now, or the value at the last velocity command.
+  /// Returns the resolution in velocity mode: the present value, or the value at the last velocity command.
   std::uint32_t resolution_in_velocity() const {
     return setup_.velocity_settings_latched ? state().velocity_resolution : resolution();
   }
@@ -97,7 +98,8 @@ inline std::uint32_t AxisView::velocity_step_urpm() const {
   return setup_.velocity_unit_urpm * (written == 0 ? 1 : written);
 }
 
-// Called for each axis in every tick; with two callers the compiler would not inline it automatically.
+// Called for each axis in every tick. Because there are two callers, the compiler would not inline it
+// automatically.
 [[gnu::always_inline]] inline DriveSettings AxisView::drive_settings() const {
   DriveSettings settings{.encoder_counts = followed_count(),
                          .stops_with_encoder = setup_.stops_with_encoder,

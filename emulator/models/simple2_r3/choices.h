@@ -1,6 +1,6 @@
 // Simple2-R3: what its manual leaves open, and what we chose. docs/fidelity/simple2-r3.md is generated from
-// these rows; a bench overrides one with `choices: { ID: OPTION }`. The code looks up an option with option()
-// in options.h.
+// these rows, and a bench can override a row with `choices: { ID: OPTION }`. The code looks up options with
+// option() in options.h.
 #pragma once
 
 #include "base/choices.h"

@@ -105,7 +105,7 @@ void Simple2R3::update_outputs(Tick tick) {
 
 Tick Simple2R3::next_tick_without_axes(Tick done) const {
   if (state_.touched) return done + 1;
-  Tick next = state_.eeprom.next_active_tick();  // the EEPROM continues while the device boots
+  Tick next = state_.eeprom.next_active_tick();  // the EEPROM continues to work while the device boots
   if (done < state_.first_tick && starts_by_itself(state_)) next = std::min(next, state_.first_tick);
   if (state_.execution.running) next = std::min(next, next_slot(state_, setup_, *this, done));
   for (const AxisState& axis : state_.axes) {
@@ -115,7 +115,7 @@ Tick Simple2R3::next_tick_without_axes(Tick done) const {
 }
 
 Tick Simple2R3::next_active_tick(Tick done) const {
-  // The cheapest check comes first: a moving axis is active in every tick, and then nothing else has to be
+  // The cheapest check comes first: a moving axis is active in every tick, so nothing else needs to be
   // checked.
   for (const AxisState& axis : state_.axes) {
     if (simple2_r3::next_active_tick(axis, done) == done + 1) return done + 1;

@@ -1,5 +1,5 @@
-// Simple2-R3: a two-axis pulse controller on Modbus RTU. Its state is one value, and its parts (setup.h lists
-// them) are functions over it. The device has the facets that others see, and the order of a tick.
+// Simple2-R3: a two-axis pulse controller on Modbus RTU. Its state is one value, and its parts (listed in
+// setup.h) are functions on this state. The device contains the facets and the order of a tick.
 #pragma once
 
 #include <cstddef>
@@ -91,7 +91,7 @@ class Simple2R3 final : public StatefulDevice<Simple2R3, State>,
   bool output(int terminal) const override;
   bool output_moves(int /*terminal*/) const override {
     return false;
-  }  // outputs switch by commands, in ticks that are run in full
+  }  // commands switch outputs, in ticks that are run in full
   std::int64_t pulses_this_tick(int number) const override { return axis(number).state().pulses_this_tick; }
   double speed_pps(int number) const override { return axis(number).speed_pps(); }
   std::int64_t pulses_to_come(int number) const override { return axis(number).pulses_to_come(); }
@@ -120,7 +120,7 @@ class Simple2R3 final : public StatefulDevice<Simple2R3, State>,
 
   Setup setup_;
   MapPolicy map_policy_;
-  // within one request: whether the EEPROM was being written when the request came
+  // within a request: whether the EEPROM was being written when the request arrived
   std::optional<bool> was_saving_;
   ProgramWatch* program_watch_ = nullptr;
 };

@@ -27,7 +27,7 @@ const AxisState& axis_of(const Simple2R3& device, Cell cell) {
   return device.state().axes[static_cast<std::size_t>(cell.argument)];
 }
 
-/// Calls `act` for the axis that the cell names, or for both.
+/// Calls `act` for the axis to which the cell refers, or for both axes.
 template <typename Act>
 void for_each_axis(Cell cell, Act act) {
   for (int axis = 0; axis < 2; ++axis) {
@@ -48,12 +48,12 @@ MoveParameters own_parameters(const Simple2R3& device, int axis) {
 
 bool is_unlocked(const Simple2R3& device) { return simple2_r3::is_unlocked(device.state(), device.setup()); }
 
-/// Returns true if the program is locked, and writes to it are ignored.
+/// Returns true if the program is locked, so that writes to it are ignored.
 bool is_write_protected(const Simple2R3& device) {
   return !is_unlocked(device) && device.chose(option("locked_writes", "ignored"));
 }
 
-/// Copies a set to the axis's registers, only if so chosen.
+/// Copies the values of a set to the axis's registers, if a choice requires it.
 void show_set(Simple2R3& device, int axis, const MoveParameters& set) {
   if (!device.chose(option("set_move", "copied"))) return;
   auto& image = device.state().image;
@@ -64,7 +64,7 @@ void show_set(Simple2R3& device, int axis, const MoveParameters& set) {
   image[slots.dec_time] = set.deceleration_10ms;
 }
 
-/// Returns how a trigger of a running motion reads.
+/// Returns the value of a trigger register whose motion may be in progress.
 Value while_in_progress(const Simple2R3& device, Cell cell, Command command) {
   const AxisState& axis = axis_of(device, cell);
   const bool is_shown = axis.by_trigger || !device.chose(option("triggers_shown", "those_written_there"));
@@ -87,7 +87,7 @@ MoveParameters from_here(const Simple2R3& device, int axis, MoveParameters move)
   return move;
 }
 
-/// Returns the slot of a cell of the program.
+/// Returns the image slot of a program cell.
 std::size_t cell_slot(Cell cell) {
   return kColumns[static_cast<std::size_t>(cell.argument)] + static_cast<std::size_t>(cell.index);
 }
@@ -186,7 +186,7 @@ Value read_analog(const Simple2R3& device, Cell cell) {
   if (device.chose(option("analog_scaling", "line_through_zero"))) {
     return at_10v == 0 ? 0 : std::clamp<Value>(read_adc(device, cell) * 2000 / at_10v, 0, 65535);
   }
-  // The two points of the calibration define a line: 200 at 1 V, 2000 at 10 V.
+  // The two calibration points define a line: 200 at 1 V, 2000 at 10 V.
   const Value at_1v = image[slot("ADC_1V_A") + i];
   const Value span = at_10v - at_1v;
   if (span == 0) return 0;
@@ -275,8 +275,8 @@ void go_home(Simple2R3& device, Cell cell, Value) {
 }
 
 void command_velocity(Simple2R3& device, Cell cell, Value milli_rpm) {
-  // The manual notes next to the high word that the speed takes effect, so a low word written alone has to
-  // wait for the high word.
+  // According to the manual, the speed takes effect with the high word, so a low word that is written alone
+  // must wait for the high word.
   if (!cell.high_half && !device.chose(option("velocity_commit", "takes_effect"))) return;
   device.axis(cell.argument).run_velocity(milli_rpm);
 }

@@ -1,5 +1,5 @@
-// The side effects of Simple2-R3's registers, for its register table. A cell's argument is an axis, unless a
-// comment says otherwise.
+// The side effects of Simple2-R3's registers, for its register table. A cell's argument is an axis unless a
+// comment states otherwise.
 #pragma once
 
 #include "emulator/device/register_map/row.h"
@@ -39,7 +39,7 @@ Value read_eeprom_busy(const Simple2R3& device, Cell);
 Value read_cell(const Simple2R3& device, Cell cell);  // argument and index as for write_cell
 Value read_unlocked(const Simple2R3& device, Cell);
 Value read_password(const Simple2R3& device, Cell);
-Value read_zero(const Simple2R3& device, Cell);  // for triggers that end at once
+Value read_zero(const Simple2R3& device, Cell);  // for triggers that have ended immediately
 
 // Effects.
 void write_output(Simple2R3& device, Cell cell, Value level);

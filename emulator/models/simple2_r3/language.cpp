@@ -26,7 +26,7 @@ namespace lang = interpreter::simple2;
 
 constexpr std::array<std::string_view, 2> kOperandCells{"data1", "data2"};
 
-/// The instruction rows, and the operands to which they refer.
+/// The rows of the instructions, and the operands to which they refer.
 struct Instructions {
   std::array<std::array<OperandRow, kOperandCells.size()>, lang::kInstructions.size()> operands;
   std::array<InstructionRow, lang::kInstructions.size()> rows;
@@ -89,7 +89,7 @@ class Listing final : public ProgramLanguage, public ProgramCells {
             .highest = 255,
             .max_rows = lang::kLineCount};
   }
-  /// Lists the cells as a master writes them from 0x4000 on; zero lines at the end are left out.
+  /// Returns the cells as a host would write them from 0x4000 on. Zero lines at the end are omitted.
   std::vector<CellRow> assemble(std::string_view text, const DeviceSettings&) const override {
     const lang::Assembly assembly = lang::assemble(text);
     if (!assembly.lines) throw ProgramError(mistakes_of(assembly));

@@ -1,5 +1,4 @@
-// Simple2-R3's program language: listings of instructions, and the 256 lines of four cells into which they
-// are assembled.
+// Simple2-R3's program language: listings of instructions, which are assembled into 256 lines of four cells.
 #pragma once
 
 #include <vector>

@@ -1,11 +1,11 @@
-// Marks of an axis: what a command sets for the motion that follows. Each mark has a row with the outcomes of
-// transitions.h that clear it, so mode x phase x event says which marks are left. The code clears marks by
-// this table alone; marks_test.cpp checks it in every cell. (stop_drive() clears for `leaves`, `ends` and
-// `begins` alike.)
+// Marks of an axis: what a command sets for the motion that follows. The row of each mark contains the
+// outcomes of transitions.h that clear it, so mode x phase x event determines which marks remain. Only this
+// table clears marks; marks_test.cpp checks it for every cell. (For stop_drive(), `leaves`, `ends` and
+// `begins` clear the same marks.)
 //
-// A position move or a homing that ends on its own also clears its command (step_drive()). Marks that are
-// only read during a running command (has_own_speed, by_trigger), and how the last one ended (cut_short,
-// homed), are set again by the next one.
+// A position move or homing that ends by itself also clears its command (step_drive()). Marks that are read
+// only during a command (has_own_speed, by_trigger), and marks about how the last command ended (cut_short,
+// homed), are set again by the next command.
 #pragma once
 
 #include <array>
@@ -48,7 +48,7 @@ inline constexpr auto kAxisMarks = [] {
 }();
 // clang-format on
 
-/// Returns true if a command with this outcome replaces one that waits for SVON.
+/// Returns true if a command with this outcome replaces a command that is waiting for SVON.
 constexpr bool replaces_kept(Outcome outcome) { return outcome != Outcome::dropped; }
 
 inline void take_off(AxisState& axis, Outcome outcome) {

@@ -24,8 +24,8 @@ namespace {
 
 constexpr Firmware kFirstWithPassword = 151;
 
-/// Returns true for registers whose factory value the manual does not state, and which need more than the
-/// minimum to be useful.
+/// Returns true for registers whose factory value is not in the manual and which need more than the minimum
+/// to be useful.
 bool is_useful_guess(const RegisterRow& row) {
   constexpr std::string_view kStated[] = {"HW_Code", "Aaxis_Resoultion", "Baxis_Resoultion"};
   const bool is_stated = std::find(std::begin(kStated), std::end(kStated), row.name) != std::end(kStated);

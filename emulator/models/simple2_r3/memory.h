@@ -1,4 +1,4 @@
-// The memory that a Simple2-R3 keeps without power, and the password that locks its program.
+// The memory that a Simple2-R3 retains without power, and the password that locks its program.
 #pragma once
 
 #include <cstddef>
@@ -20,14 +20,14 @@ class Memory {
  public:
   Memory(State& state, const Setup& setup) : state_(state), setup_(setup) {}
 
-  /// Saves a register that a host or a program has written. `was_saving` says whether the EEPROM was being
-  /// written when the request came; the first register of a request sets it.
+  /// Saves a register that a host or a program has written. `was_saving` indicates whether the EEPROM was
+  /// being written when the request arrived; the first register of a request sets it.
   void save(const RegisterRow& row, std::size_t slot, std::optional<bool>& was_saving);
-  /// Adopts NEW_PWD as the password.
+  /// Makes NEW_PWD the password.
   void take_password();
-  /// Compares PWD_Input with the password, and locks or unlocks.
+  /// Compares PWD_Input with the password, and locks or unlocks the program.
   void judge_lock();
-  /// Handles a write to NEW_PWD; it has no effect while the device is locked.
+  /// Handles a write to NEW_PWD, which has no effect while the program is locked.
   void change_password(std::uint16_t password);
 
  private:

@@ -25,7 +25,7 @@ namespace understudy::emulator::models::simple2_r3 {
 
 namespace {
 
-// Every version for which the manual mentions a difference; the manual itself is for 1.52.
+// Every version for which the manual mentions a difference. The manual itself is for 1.52.
 constexpr std::array<Firmware, 7> kFirmwares{139, 140, 141, 142, 150, 151, 152};
 
 constexpr std::array<std::string_view, 2> kKnownLimitations{
@@ -152,8 +152,8 @@ const Model& model() {
       .known_limitations = kKnownLimitations,
       .line = {.protocol = kModbusRtu,
                .ports = kPorts,
-               .station_numbers = StationNumbers{0, 15}},             // rotary switch 0: every station number
-      .rtu = RtuRules{.end_silence = std::chrono::microseconds(750),  // END Time, at both speeds
+               .station_numbers = StationNumbers{0, 15}},             // rotary switch 0: all station numbers
+      .rtu = RtuRules{.end_silence = std::chrono::microseconds(750),  // END time, at both speeds
                       .functions = kFunctions},
       .first_files = &kFirstFiles,
       .stop = kStop,

@@ -1,6 +1,6 @@
-// Simple2-R3: the code looks up the options of choices.h with this, as in `device.chose(option("aclr_again",
-// "ignored"))`. An unknown row or option is a compile error. Options that every tick needs are looked up
-// once, when the device is made.
+// Simple2-R3: looks up the options of choices.h, as in `device.chose(option("aclr_again", "ignored"))`. An
+// unknown row or option is a compile error. Options that every tick needs are looked up once, when the device
+// is created.
 #pragma once
 
 #include <string_view>

@@ -1,5 +1,5 @@
-// Simple2-R3: the parameter numbers by which a program reaches registers. 159 to 166 and 183 on are not
-// defined.
+// Simple2-R3: the parameter numbers with which a program accesses registers. 159 to 166, and 183 and above,
+// are not defined.
 #pragma once
 
 #include <array>

@@ -24,7 +24,7 @@ namespace {
 /// Returns the duration of Erase_ALL and Factory_Reset.
 Tick rewrite_ticks(const Setup& setup) { return setup.chose(option("eeprom_erasure", "100ms")) ? 100 : 500; }
 
-/// Resets the state, except for the memory and the encoders' raw counts.
+/// Resets the state, except the memory and the encoders' raw counts.
 void blank(State& state) {
   State blank;
   blank.eeprom = std::move(state.eeprom);
@@ -42,7 +42,7 @@ void Power::down() {
   state_.eeprom.lose_power();
   const std::uint8_t switches = state_.switches;
   blank(state_);
-  state_.switches = switches;  // the line keeps its speed until then
+  state_.switches = switches;  // until then, the line keeps its speed
 }
 
 void Power::up() {

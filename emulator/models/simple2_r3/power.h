@@ -1,4 +1,4 @@
-// Changes a Simple2-R3 as a whole: power-up, power-down, factory reset, erasure.
+// Changes that affect a Simple2-R3 as a whole: power-up, power-down, factory reset, erasure.
 #pragma once
 
 #include "emulator/device/register_map/register_bank.h"

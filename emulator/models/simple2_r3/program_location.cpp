@@ -1,4 +1,4 @@
-// Reports the present line of the program to observers.
+// Reports the current line of the program to observers.
 #include <algorithm>
 #include <cstddef>
 #include <string>
@@ -38,12 +38,12 @@ bool is_failure(interpreter::simple2::Ending ending) {
          ending == interpreter::simple2::Ending::undefined_operand;
 }
 
-/// Returns the line of the listing that shows this line of the program, and its text. A line of zeros may
-/// have none.
+/// Returns the listing line that shows this line of the program, and its text. A line of zeros may not have a
+/// listing line.
 std::pair<int, std::string> listed(const interpreter::simple2::Program& program, std::size_t number) {
   interpreter::simple2::Lines lines = program.lines();
   if (lines[number] == interpreter::simple2::Line{}) return {0, "NOP"};
-  // Later lines do not affect how earlier ones are written.
+  // Later lines do not affect how earlier lines are written.
   std::fill(lines.begin() + static_cast<std::ptrdiff_t>(number) + 1, lines.end(),
             interpreter::simple2::Line{});
   std::string text = disassemble(lines);

@@ -24,7 +24,7 @@ namespace understudy::emulator::models::simple2_r3 {
 
 namespace {
 
-/// Returns the place of each parameter number; empty if it is not defined.
+/// Returns the place for each parameter number. The place is empty if the number is not defined.
 const std::vector<NamedPlace>& parameter_places() {
   static const std::vector<NamedPlace> places = [] {
     std::vector<NamedPlace> all(256);
@@ -93,7 +93,7 @@ void ProgramMachine::set_parameter(int number, std::int32_t value) {
   if (!place.place || place.place.row->access == Access::read) return;
   const RegisterRow& row = *place.place.row;
   const bool is_counter = row.name == "Counter1_Value" || row.name == "Counter2_Value";
-  // A timer's 32 bits are unsigned; a signed or 16-bit value is brought into its range.
+  // A timer has 32 unsigned bits. A signed or 16-bit value is brought into its range.
   Value wanted = value;
   if (row.type == Type::u32 && row.min == 0) {
     wanted = static_cast<std::uint32_t>(value);
@@ -132,7 +132,7 @@ MoveParameters ProgramMachine::parameters_for(std::size_t axis, std::int64_t dis
           .of_the_axis = true};
 }
 
-/// Only if so chosen, a program's move is shown in the axis's register.
+/// Shows a program's move in the axis's register, if a choice requires it.
 void ProgramMachine::show_pulse(std::size_t axis, std::int32_t pulses) {
   if (!setup_.chose(option("program_pulse", "shown"))) return;
   state_.image[kAxisSlots[axis].pulse] = static_cast<std::uint32_t>(pulses);

@@ -1,5 +1,5 @@
-// Simple2-R3 as its program sees it: the abstract machine of interpreter/simple2/, over a state and its
-// setup.
+// Simple2-R3 as its program sees it: implements the abstract machine of interpreter/simple2/ with a state and
+// a setup.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,8 @@
 
 namespace understudy::emulator::models::simple2_r3 {
 
-/// The part of the machine that a program reads. `Seen` is the whole abstract machine, or its read-only part.
+/// The part of the machine that a program can read. `Seen` is the whole abstract machine or its read-only
+/// part.
 template <class Seen, class StateSeen, class Bank>
 class ProgramStateView : public Seen {
  public:
@@ -62,7 +63,7 @@ class ProgramMachine final : public ProgramStateView<interpreter::simple2::Machi
 
  private:
   AxisCommands commands(Axis axis) { return {state_, setup_, static_cast<int>(number_of(axis))}; }
-  /// Returns true if a program's speed and times are not those of the axis's registers.
+  /// Returns true if a program's speed and times are separate from those in the axis's registers.
   bool has_speed_of_its_own() const { return setup_.chose(option("program_speed", "of_its_own")); }
   MoveParameters parameters_for(std::size_t axis, std::int64_t distance_pulses) const;
   void show_pulse(std::size_t axis, std::int32_t pulses);

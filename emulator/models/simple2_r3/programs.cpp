@@ -94,7 +94,7 @@ void Programs::start(std::uint8_t line) {
   const interpreter::simple2::LoopState loop = execution.loop;
   interpreter::simple2::start(execution, line);
   if (setup_.chose(option("start_while_running", "jumps")))
-    execution.loop = loop;  // the execution has no loop if the program was not running
+    execution.loop = loop;  // there is no loop if the program was not running
   find_flags_if_requested();
   if (!setup_.chose(option("program_start", "clears_them"))) return;
   for (Timer& timer : state_.timers) timer = {};
@@ -142,7 +142,7 @@ void Programs::reset_timers() {
 }
 
 Tick next_slot(const State& state, const Setup& setup, const RegisterBank& bank, Tick done) {
-  // A waiting program runs only until it is clear that it continues to wait; after that, its condition
+  // A waiting program runs only until it is clear that it will continue to wait. After that, its condition
   // determines the next tick.
   if (state.execution.held.command == 0) {
     return done + interpreter::simple2::kSlotMs - done % interpreter::simple2::kSlotMs;

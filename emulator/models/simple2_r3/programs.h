@@ -31,7 +31,7 @@ class Programs {
   void start(std::uint8_t line);
   void stop();
   void reset_timers();
-  /// Runs one tick in which program_is_due(). The watch may be null.
+  /// Runs one tick, if program_is_due(). The watch may be null.
   void run(Tick tick, ProgramWatch* watch);
 
  private:
@@ -53,7 +53,7 @@ inline bool program_is_due(const State& state, Tick tick) {
 /// Returns the next tick in which the running program does anything.
 Tick next_slot(const State& state, const Setup& setup, const RegisterBank& bank, Tick done);
 
-/// Returns where the program is, for observers.
+/// Returns the current position of the program, for observers.
 ProgramLocation program_location(const State& state);
 
 }  // namespace understudy::emulator::models::simple2_r3

@@ -14,7 +14,7 @@ namespace understudy::emulator::models::simple2_r3 {
 
 namespace {
 
-/// Returns the event for the axis when a signal comes on or goes off.
+/// Returns the axis event for a signal that goes on or off.
 Event event_of(const AxisState& axis, motion::Signal signal, bool on) {
   if (signal == motion::Signal::alarm) return on ? Event::alarm : Event::alarm_gone;
   if (!on) return Event::limit_gone;
@@ -37,12 +37,12 @@ void meet_in_velocity(AxisState& axis, Outcome outcome) {
     case Outcome::kept:
     case Outcome::ends:
     case Outcome::begins:
-    case Outcome::changes: return;  // slows_and_waits: the limit itself holds it
+    case Outcome::changes: return;  // slows_and_waits: the limit itself holds the axis
   }
 }
 
 void meet_in_pwm(AxisState& axis, Outcome outcome) {
-  take_off(axis, outcome);  // waiting commands are held by the alarm itself
+  take_off(axis, outcome);  // the alarm itself holds waiting commands
 }
 
 }  // namespace
@@ -61,7 +61,7 @@ void AxisReactions::power_up() {
 
 void AxisReactions::forget_kept() {
   const KeptCommand forgotten = std::exchange(kept(), {});
-  if (forgotten.command != Command::none) axis().cut_short = true;  // a line may be waiting for the command
+  if (forgotten.command != Command::none) axis().cut_short = true;  // a line may be waiting for it
 }
 
 void AxisReactions::stop(Stopping how) {
@@ -85,7 +85,7 @@ void AxisReactions::servo_off() {
 
 void AxisReactions::begin_following() {
   simple2_r3::follow_encoder(axis(), sync_follower(), followed_count());
-  // The axis sends no pulses until its first period begins.
+  // The axis sends no pulses before its first period begins.
   if (chose(option("sync_period", "every_fifth_tick")))
     axis().motor.follower.phase = static_cast<int>((now() + 1) % kSyncPeriod);
 }
@@ -107,7 +107,7 @@ void AxisReactions::sample_signals() {
   apply_signals(signals().of_motor(number()));
 }
 
-/// In position mode the motor itself follows the table. Notes the events that it meets.
+/// In position mode, the motor itself follows the table. This records the events that it encounters.
 void AxisReactions::note_for_motor(motion::Signals changed, motion::Signals on) const {
   for (const motion::Signal signal :
        {motion::Signal::alarm, motion::Signal::limit_plus, motion::Signal::limit_minus}) {
@@ -116,7 +116,7 @@ void AxisReactions::note_for_motor(motion::Signals changed, motion::Signals on) 
     const bool is_on = (on & bit) != 0;
     if (((state().motor.signals ^ on) & bit) != 0) {
       (void)reaction(event_of(state(), signal, is_on));
-    } else {  // the axis met the switch on its way, in the tick before
+    } else {  // the axis reached the switch during its motion, in the previous tick
       note(is_on ? Phase::moving : Phase::leaving, is_on ? Event::limit_ahead : Event::limit_gone);
     }
   }
@@ -130,7 +130,7 @@ void AxisReactions::apply_signals(motion::Signals on) {
   axis.signals.steady = on;
   ++axis.signals.version;
   if (axis.mode == Mode::position) return;
-  // The signals act one after another; each finds the axis as the previous one has left it.
+  // The signals take effect one after another, each on the state that the previous signal has left.
   for (const motion::Signal signal :
        {motion::Signal::alarm, motion::Signal::limit_plus, motion::Signal::limit_minus}) {
     if ((changed & motion::bit(signal)) == 0 || setup().ignores(signal)) continue;
@@ -144,7 +144,7 @@ void AxisReactions::apply_signals(motion::Signals on) {
     }
   }
   axis.motor.signals = on;
-  // The motor's direction is that of its last pulse; before its first pulse in a new direction, it must not
+  // The motor's direction is that of its last pulse. Before its first pulse in a new direction, it must not
   // stop because of the old direction.
   if (axis.motor.drive.direction != heading(axis)) axis.motor.drive.direction = 0;
 }
@@ -173,7 +173,7 @@ void AxisReactions::handle_in_sync(Outcome outcome) {
 void AxisReactions::refresh_signals() {
   apply_servo_state();
   apply_signals(signals().of_motor(number()));
-  // A homing in progress must still see its edges.
+  // A running homing must still detect its edges.
   if (!axis().motor.homing.active()) axis().motor.signals = axis().signals.steady;
 }
 

@@ -1,6 +1,6 @@
-// The tick of an axis, and what stops it: STOP and SVOFF, limits and alarms. Position moves and homing
-// handle those in motion/, by AxisSettings and the homing's own table, and the other modes by the table in
-// transitions.h.
+// The tick of an axis, and what stops it: STOP and SVOFF, limits and alarms. For position moves and homing,
+// motion/ handles these according to AxisSettings and the homing table; for the other modes, the table in
+// transitions.h decides.
 #pragma once
 
 #include <cstddef>
@@ -18,7 +18,7 @@
 
 namespace understudy::emulator::models::simple2_r3 {
 
-/// The ways to stop an axis. An instruction and SVOFF stop it forcibly.
+/// The ways to stop an axis. Instructions and SVOFF stop it forcibly.
 enum class Stopping : std::uint8_t { forcibly, by_register };
 
 class AxisReactions : public AxisView {
@@ -30,7 +30,7 @@ class AxisReactions : public AxisView {
   void power_up();
   void stop(Stopping how = Stopping::forcibly);
   void servo_off();
-  /// Checks the limits and the alarm, at the beginning of a tick.
+  /// Checks the limits and the alarm at the beginning of a tick.
   void sample_signals();
 
  protected:
@@ -38,7 +38,7 @@ class AxisReactions : public AxisView {
   std::uint32_t& shared(std::size_t slot) { return state_.image[slot]; }
   KeptCommand& kept() { return state_.kept[index()]; }
 
-  /// Updates the motor's signals, before a command that they may forbid.
+  /// Updates the motor's signals before a command that they may forbid.
   void refresh_signals();
   void forget_kept();
   void begin_following();
@@ -46,7 +46,7 @@ class AxisReactions : public AxisView {
  private:
   /// Checks again whether SVOFF forbids pulses.
   void apply_servo_state();
-  /// Sets the axis's limits and alarm, and handles the changes.
+  /// Sets the limits and the alarm of the axis, and handles the changes.
   void apply_signals(motion::Signals on);
   void note_for_motor(motion::Signals changed, motion::Signals on) const;
   void handle_in_sync(Outcome outcome);
@@ -54,7 +54,7 @@ class AxisReactions : public AxisView {
   State& state_;
 };
 
-/// Runs one tick of an axis. A separate call would cost a tenth of a tick.
+/// Runs one tick of an axis. A separate call would take an additional tenth of a tick's time.
 [[gnu::always_inline]] inline void step_axis(State& state, const Setup& setup, int number, Tick tick) {
   if (state.touched || setup.alarm_latches || setup.alarm_takes_servo) {
     AxisReactions(state, setup, number).sample_signals();

@@ -1,5 +1,5 @@
-// Simple2-R3: every register, in the manual's order and spelling ("Resoultion", and the axis names without
-// their letter, are the manual's). Section names are those of the manual.
+// Simple2-R3: every register, in the manual's order and spelling ("Resoultion" and axis names without their
+// letter come from the manual). The section names are those of the manual.
 #pragma once
 
 #include <array>
@@ -25,12 +25,12 @@ inline constexpr Value kS32Max = INT32_MAX;
 inline constexpr Value k2To15 = 32768;
 inline constexpr Value k2To31 = 2147483648;
 
-// What writes can do. The names are short forms of the hazards' names.
+// What writes can do. These are short forms of the hazards' names.
 inline constexpr Hazards kValue = Hazards::settings;
 inline constexpr Hazards kMemory = Hazards::memory;
 inline constexpr Hazards kOutput = Hazards::output;
 inline constexpr Hazards kMotion = Hazards::motion;
-// A program can do all that its instructions do.
+// A program can do everything that its instructions can do.
 inline constexpr Hazards kProgram = kMemory | kOutput | kMotion;
 
 template <std::size_t N>
@@ -43,7 +43,7 @@ constexpr std::array<RegisterRow, N> section(std::string_view name, Hazards haza
   }
   return named;
 }
-/// A section whose registers are read-only, or have individual marks.
+/// A section whose registers are read-only or have individual marks.
 template <std::size_t N>
 consteval std::array<RegisterRow, N> section(std::string_view name, const RegisterRow (&rows)[N]) {
   return section(name, Hazards::unmarked, rows);
@@ -60,7 +60,7 @@ consteval auto join(const std::array<RegisterRow, N>&... sections) {
   return all;
 }
 
-/// The bits of STATUS: those of A are even, those of B odd.
+/// The bits of STATUS. Those of axis A are even, those of axis B odd.
 inline constexpr BitField kStatusBits[] = {
     bits(0, "A_alarm"),        bits(1, "B_alarm"),        bits(2, "A_ready"),
     bits(3, "B_ready"),        bits(4, "A_moving"),       bits(5, "B_moving"),
@@ -116,7 +116,8 @@ inline constexpr auto kPositionRows = section("編碼器，座標，類比輸入
     reg(0x0E0F, "ENCB_RPM", s16, R).means("speed of encoder B", "編碼器 B 轉速讀回值").range(-32768, 32767).in("RPM").reads<read_encoder_speed, Varies::with_time>(kAxisB).changes_at<every_tick>(),
 });
 
-// The manual prints a minimum of 1 for speeds, but the factory value is 0 and appendix A describes it.
+// The manual prints a minimum of 1 for speeds, but the factory value is 0, and appendix A describes that
+// value.
 inline constexpr auto kMotionRows = section("運動相關", kMotion, {
     reg(0x1000, "Aaxis_Pulse",     s32, RW).means("distance or target of the next move of axis A", "A 軸位移值").range(kS32Min, kS32Max).in("Pulse").may(kValue),
     reg(0x1002, "Aaxis_Speed",     u16, RW).means("move speed of axis A", "最大 A 軸速度").range(0, k2To15).in("RPM").does<change_speed>(kAxisA),
@@ -177,7 +178,7 @@ inline constexpr auto kAbsoluteBySetRows = section("預存位置表相關運動�
     reg(0x2108, "Baxis_ParmsMove_ABS",   u16, W).means("starts an absolute move of axis B, using the position set with this number", "B 軸使用寫入的預存位置表號碼開始絕對位置移動").range(0, 16).triggers<start_absolute_by_set>(kAxisB),
 });
 
-// A program cell is sent as 16 bits but holds 8.
+// A program cell is sent as 16 bits but contains 8 bits.
 inline constexpr auto kProgramRows = section("程式控制", kProgram, {
     reg(0x3000, "PROG_MAIN_RunTime_START",  u16, W).means("starts the program at this line", "主程式由哪一行執行").range(0, 255).in("line").does<start_program>(),
     reg(0x3001, "PROG_MAIN_RunTime_END",    u16, W).means("1 stops the program", "主程式強制停止").range(0, 1).triggers<stop_program>().may(kMotion),
@@ -192,7 +193,8 @@ inline constexpr auto kProgramRows = section("程式控制", kProgram, {
     reg(0x8100, "PROG_VAR{}", s32, RW).means("program variable VAR {}", "變數表行 {}").times(32, 2, 0).halves("_RegL", "_RegH").may(kValue),
 });
 
-// The manual prints EncSync up to 2^16, which 16 bits cannot hold. It prints 0xF02A with the name of 0xF029.
+// The manual prints EncSync up to 2^16, which does not fit in 16 bits. It prints 0xF02A with the name of
+// 0xF029.
 inline constexpr auto kSystemRows = section("系統參數相關", kMemory, {
     reg(0xF000, "Aaxis_Home_Speed",    u16, RW).means("homing speed of axis A", "最大回原點 A 軸速度").also("Axis_Home_Speed").range(0, k2To15).in("RPM").persists(),
     reg(0xF001, "Baxis_Home_Speed",    u16, RW).means("homing speed of axis B", "最大回原點 B 軸速度").range(0, k2To15).in("RPM").persists(),
@@ -263,7 +265,7 @@ inline constexpr std::size_t kSlotCount = [] {
   return count;
 }();
 
-/// Returns the slot of a register in the image; an unknown name is a compile error.
+/// Returns the image slot of a register. An unknown name is a compile error.
 consteval std::size_t slot(std::string_view name) {
   std::size_t next = 0;
   for (const RegisterRow& row : kRegisters) {

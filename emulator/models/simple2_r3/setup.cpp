@@ -102,7 +102,8 @@ std::uint8_t Setup::switch_levels() const {
 }
 
 std::uint16_t Setup::adc(int number) const {
-  // The level is in millivolts. With the factory calibration, 10 V reads as 4000, or 1000 with 10 bits.
+  // The level is in millivolts. With the factory calibration, the value for 10 V is 4000, or 1000 with 10
+  // bits.
   const std::int32_t level = device.input(kFirstAnalog + number);
   const std::int32_t adc = adc_10_bits ? std::min(level / 10, 1023) : std::min(level * 2 / 5, 4095);
   return static_cast<std::uint16_t>(std::max(adc, 0));

@@ -84,8 +84,8 @@ bool Signals::output(int number) const {
   return ((state_.written_outputs >> number) & 1) != 0;
 }
 
-/// Returns an axis's bit of STATUS: `by_function` if the pin has its function, or the pin's level if it has
-/// none and a choice says so.
+/// Returns an axis's bit in STATUS: `by_function` if the pin has its function. Otherwise, a choice can show
+/// the level of the pin.
 bool Signals::shown(bool by_function, std::size_t assignment_slot, int number) const {
   if (assigned(assignment_slot) || !setup_.chose(option("unassigned_input_status", "level_of_pin")))
     return by_function;
@@ -122,7 +122,7 @@ void sample_inputs(State& state, const Setup& setup) {
 }
 
 void write_outputs(State& state, const Setup& setup, std::uint8_t which, std::uint8_t levels) {
-  // DOUT 0 to 3 are the first of the registers that assign functions.
+  // DOUT 0 to 3 belong to the first registers that assign functions.
   for (unsigned n = 0; n < 4 && setup.chose(option("write_under_function", "ignored")); ++n) {
     if (Signals(state, setup).assigned(kFirstAssignment + n)) {
       which = static_cast<std::uint8_t>(which & ~(1U << n));

@@ -1,4 +1,5 @@
-// The terminals as the firmware sees them: their levels, the functions that registers give them, and STATUS.
+// The terminals as the firmware sees them: their levels, the functions that registers assign to them, and
+// STATUS.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +18,8 @@ class Signals {
  public:
   Signals(const State& state, const Setup& setup) : state_(state), setup_(setup) {}
 
-  /// Returns DIN 0 to 10 as sampled in the last tick; before the first tick after power-up, as sampled now.
+  /// Returns DIN 0 to 10 as sampled in the last tick. Before the first tick after power-up, returns the
+  /// present levels.
   std::uint16_t inputs() const { return is_just_up() ? setup_.input_levels() : state_.inputs; }
   bool input(int number) const { return ((inputs() >> number) & 1) != 0; }
   std::uint16_t adc(int number) const {
@@ -28,7 +30,7 @@ class Signals {
   /// Returns true if the levels have changed since they were sampled.
   bool have_changed() const;
 
-  /// Returns true if the register at `assignment_slot` (0x0A00 to 0x0A0D) gives its pin a function.
+  /// Returns true if the register at `assignment_slot` (0x0A00 to 0x0A0D) assigns a function to its pin.
   bool assigned(std::size_t assignment_slot) const;
   bool alarm(int axis) const;
   bool ready(int axis) const;
@@ -38,16 +40,15 @@ class Signals {
     return setup_.now() < state_.axes[static_cast<std::size_t>(axis)].alarm_clear_until;
   }
   motion::Signals of_motor(int axis) const;
-  /// Returns the actual level at DOUT `number`, special functions included.
+  /// Returns the actual level at DOUT `number`, including special functions.
   bool output(int number) const;
-  /// Returns STATUS.
   Value status() const;
 
  private:
-  /// Returns true if no tick has been run since power-up.
+  /// Returns true if no tick has run since power-up.
   bool is_just_up() const { return setup_.now() + 1 + setup_.boot_ticks == state_.first_tick; }
-  /// Returns an input's level if the register at `assignment_slot` gives it its special function, otherwise
-  /// false.
+  /// Returns the level of an input if the register at `assignment_slot` assigns the special function to it,
+  /// otherwise false.
   bool assigned_input(std::size_t assignment_slot, int number) const {
     return assigned(assignment_slot) && input(number);
   }

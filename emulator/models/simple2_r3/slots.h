@@ -1,4 +1,4 @@
-// Slots of the image that several files use, found by the names of their registers.
+// Image slots that several files use, found by the names of their registers.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 namespace understudy::emulator::models::simple2_r3 {
 
 inline constexpr std::size_t kPassword = slot("NEW_PWD");
-/// The columns of the program. Each has a slot for every line, from this one on.
+/// The columns of the program. From each of these slots on, there is one slot per line.
 inline constexpr std::array<std::size_t, 4> kColumns{slot("MAIN_LINE{}_CMD"), slot("MAIN_LINE{}_DATA1"),
                                                      slot("MAIN_LINE{}_DATA2"), slot("MAIN_LINE{}_JMP")};
 

@@ -1,4 +1,4 @@
-// Simple2-R3's state as bytes, and back.
+// Converts Simple2-R3's state to bytes and back.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -18,14 +18,14 @@ namespace understudy::emulator::models::simple2_r3 {
 
 namespace {
 
-/// Requires a count that a plant's encoder can give (PlantAxis::encoder_counts), so the difference of two
-/// counts fits.
+/// Requires a count that a plant's encoder can have (PlantAxis::encoder_counts), so that the difference of
+/// two counts does not overflow.
 void require_encoder_count(std::int64_t counts) {
   constexpr std::int64_t kEnd = std::int64_t{1} << 61;
   require_within(counts, -kEnd, kEnd - 1);
 }
 
-/// Limits the speed, because velocity mode multiplies the speed by the resolution.
+/// Limits the speed, because velocity mode multiplies it by the resolution.
 void require_speed(const AxisState& axis, std::uint32_t pulses_per_revolution) {
   const std::int64_t max = INT64_MAX / 4 / std::max<std::int64_t>(pulses_per_revolution, 1);
   require_within(axis.speed_urpm, -max, max);

@@ -1,4 +1,4 @@
-// The fields of a Simple2-R3's state (base/state/fields.h), in the order of the bytes.
+// The fields of a Simple2-R3's state (base/state/fields.h), in the order of the saved bytes.
 #pragma once
 
 #include <string>
@@ -13,8 +13,8 @@
 namespace understudy {
 
 namespace emulator::models::simple2_r3 {
-/// Returns the name of the register at a slot of the image: "Aaxis_Speed", or "Program+17" for one of
-/// several.
+/// Returns the name of the register at an image slot: "Aaxis_Speed", or "Program+17" for one of several
+/// registers.
 std::string register_at_slot(std::size_t slot);
 }  // namespace emulator::models::simple2_r3
 

@@ -1,4 +1,4 @@
-// Simple2-R3's terminals, in the order of its table (model.cpp).
+// Simple2-R3's terminals, in the order of the table in model.cpp.
 #pragma once
 
 namespace understudy::emulator::models::simple2_r3 {

@@ -9,7 +9,7 @@
 
 namespace understudy::emulator::models::simple2_r3 {
 
-inline constexpr std::size_t kReactions = 0;  // the number of its only table
+inline constexpr std::size_t kReactions = 0;  // the number of the only table
 
 constexpr std::size_t reaction_state(Activity activity, Phase phase) {
   return static_cast<std::size_t>(activity) * kPhases + static_cast<std::size_t>(phase);

@@ -1,8 +1,8 @@
-// The reaction of a Simple2-R3 axis to each event: mode x phase x event, as data. Commands (commands.cpp) and
-// signals (reactions.cpp) read it; a test checks all cells against the running device.
+// The reaction of a Simple2-R3 axis to each event, as data: mode x phase x event. Commands (commands.cpp) and
+// signals (reactions.cpp) use the table, and a test checks all cells against the running device.
 //
-// Directions are those of the axis: a limit is "ahead" on the side to which it moves, and commands are
-// "towards" or "away" from the limit that is on. While no limit is on, either may be used.
+// Directions are relative to the axis: a limit is "ahead" if the axis moves towards it, and commands are
+// "towards" or "away" from the limit that is on. While no limit is on, either word may be used.
 #pragma once
 
 #include <array>
@@ -19,13 +19,13 @@ inline constexpr int kActivities = 5;
 
 enum class Phase : std::uint8_t {
   standing,   // no pulses; PWM: 0 percent
-  moving,     // PWM: duty
+  moving,     // PWM: with a duty cycle above 0
   slowing,    // slows down in its direction
   turning,    // slows down to reverse
   leaving,    // moves away from a limit that is on
-  at_limit,   // at rest while a limit is on, or stopped by it; PWM: with or without duty
-  in_alarm,   // no output while the alarm lasts
-  servo_off,  // no output while the servo is off; for commands
+  at_limit,   // at rest while a limit is on, or stopped by it; PWM: with any duty cycle
+  in_alarm,   // no output while the alarm is active
+  servo_off,  // no output while the servo is off; only for commands
 };
 inline constexpr int kPhases = 8;
 
@@ -53,22 +53,22 @@ inline constexpr int kEvents = 17;
 
 enum class Outcome : std::uint8_t {
   continues,        // continues as if nothing had happened
-  stops,            // sends no pulses and no duty from now on; the target is dropped
+  stops,            // sends no further pulses and no duty cycle; the target is dropped
   leaves,           // like stops, and returns to position mode
-  waits,            // sends no pulses and no duty until the cause is gone
+  waits,            // sends no pulses and no duty cycle until the cause has disappeared
   turns,            // stops at once and reverses
   slows,            // decelerates along its ramp and stops; the target is dropped
-  slows_and_waits,  // like slows, until the cause is gone
-  blocked,          // follows only in the other direction
-  resumes,          // continues with the target that has waited
+  slows_and_waits,  // like slows, until the cause has disappeared
+  blocked,          // follows only in the opposite direction
+  resumes,          // continues with the target that was waiting
   dropped,          // the command has no effect
   kept,             // the command waits for SVON
   ends,             // the command has no effect, but the running motion ends
   begins,           // the running motion ends at once, and the command begins from standstill
-  changes,          // changes from its present state to the command
+  changes,          // changes from the present state to the command
 };
 
-/// The outcome of a cell under another option.
+/// The outcome of a cell if another option is selected.
 struct OtherOutcome {
   Option chosen{};
   Outcome outcome = Outcome::continues;
@@ -92,9 +92,9 @@ constexpr bool has(Set set, T member) {
 struct Transition {
   Set activities, phases, events;
   Outcome outcome;
-  /// The manual's section, or the choice, on which the cell is based.
+  /// The section of the manual, or the choice, on which the cell is based.
   std::string_view source;
-  OtherOutcome other{}, another{};  // the first chosen one applies
+  OtherOutcome other{}, another{};  // the first one whose option is selected applies
 };
 
 namespace transitions {
@@ -275,7 +275,7 @@ constexpr bool can_come(Phase phase, Event event) {
   using namespace transitions;
   if (phase == servo_off) return has(kCommands, event);
   switch (event) {
-    case Event::limit_ahead: return true;  // while standing, any limit
+    case Event::limit_ahead: return true;  // at standstill, any limit
     case Event::limit_behind: return has(kFree, phase);
     case Event::limit_gone: return has(kOnLimit | set_of(in_alarm), phase);
     case Event::alarm: return phase != in_alarm;
@@ -298,7 +298,7 @@ constexpr bool can_come(Phase phase, Event event) {
 
 inline constexpr std::uint8_t kNoRow = 255;
 
-/// The row of each cell; kNoRow if it has none, 254 if it has several.
+/// The row for each cell; kNoRow if there is none, 254 if there are several.
 inline constexpr auto kReactionOfCell = [] {
   std::array<std::array<std::array<std::uint8_t, kEvents>, kPhases>, kActivities> cells{};
   for (auto& phases : cells) {

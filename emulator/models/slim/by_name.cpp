@@ -30,7 +30,7 @@
 namespace understudy::emulator::models::slim {
 
 const std::optional<lang::Command>& QueriesByName::query_of(const Setup& setup, std::string_view name) {
-  constexpr std::size_t kMax = 256;  // limits the cache, because a client may query any name at any time
+  constexpr std::size_t kMax = 256;  // limits the cache, because clients can query arbitrary names
   if (const auto known = queries_.find(name); known != queries_.end()) return known->second;
   if (queries_.size() >= kMax) queries_.clear();
   std::optional<lang::Command>& query = queries_[std::string(name)];

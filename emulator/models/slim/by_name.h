@@ -1,4 +1,4 @@
-// Queries and assignments that bypass the line: scenarios, traces, the control socket.
+// Queries and assignments that bypass the line, for scenarios, traces and the control socket.
 #pragma once
 
 #include <functional>
@@ -16,8 +16,8 @@
 
 namespace understudy::emulator::models::slim {
 
-/// Answers queries by name. It parses each name once, because conditions and traces ask the same at every
-/// tick.
+/// Answers queries by name. It parses each name only once, because conditions and traces repeat their queries
+/// at every tick.
 class QueriesByName {
  public:
   std::optional<double> value(const State& state, const Setup& setup, const lang::Machine& machine,
@@ -29,9 +29,9 @@ class QueriesByName {
   std::map<std::string, std::optional<lang::Command>, std::less<>> queries_{};
 };
 
-/// Returns the first tick after `done` at which a clock of the device shows a new second.
+/// Returns the first tick after `done` in which a clock of the device shows a new second.
 Tick next_second(const State& state, Tick done);
-/// Assigns a value as a line of a program would. Returns nothing, or why it is refused.
+/// Assigns a value as a program line would. Returns nothing, or why the value is refused.
 std::optional<std::string> assign_by_name(State& state, const Setup& setup, const lang::Machine& machine,
                                           std::string_view name, double value);
 std::vector<std::string> common_names(const State& state, const Setup& setup);

@@ -1,4 +1,4 @@
-// SLIM: what each command can do when a host sends it. A command without a row does not compile.
+// SLIM: what each command can do when a host sends it. If a command has no row, the table does not compile.
 #pragma once
 
 #include <algorithm>
@@ -29,11 +29,11 @@ inline constexpr Hazards kValue = Hazards::settings;
 inline constexpr Hazards kMotion = Hazards::motion;
 inline constexpr Hazards kOutput = Hazards::output;
 inline constexpr Hazards kMemory = Hazards::memory;
-// A program can do all that its commands do.
+// A program can do everything that its commands can do.
 inline constexpr Hazards kProgram = kMemory | kOutput | kMotion;
-// A line of a program is only stored; typed, it is refused.
+// Within a program, a line is only stored; typed, it is refused.
 inline constexpr Hazards kInProgram = kMemory;
-// Parameters include speeds, limits, modes of inputs and outputs, and the modules that are linked.
+// Parameters include speeds, limits, the modes of inputs and outputs, and which modules are linked.
 inline constexpr Hazards kAnyParameter = kOutput | kMotion | Hazards::stops_answering;
 inline constexpr Hazards kEverything = Hazards::all;
 
@@ -117,7 +117,7 @@ inline constexpr Row kRows[] = {
 };
 // clang-format on
 
-/// Queries are replaced by another command, because a key may occur twice.
+/// Queries are replaced by another command, which is possible because a key may occur twice.
 inline constexpr auto kVerbs = [] {
   std::array<Verb, interpreter::slim::kCommands.size()> verbs{};
   std::size_t count = 0;
@@ -130,7 +130,7 @@ inline constexpr CompleteTable<Verb, Hazards> kTable(kVerbs, kRows);
 
 }  // namespace command_hazards
 
-/// Returns what a line does to the entry of a program (PG, PE, PI, PA, DL).
+/// Returns the effect of a line on program entry (PG, PE, PI, PA, DL).
 inline EditMark edit_mark_of_line(std::string_view line) {
   namespace lang = interpreter::slim;
   using lang::Verb;
@@ -145,8 +145,8 @@ inline EditMark edit_mark_of_line(std::string_view line) {
   return begins ? EditMark::begins : verb == Verb::exit ? EditMark::ends : EditMark::none;
 }
 
-/// Returns what a line of text can do. A line that is not a command for the emulator may be one for a real
-/// controller, or belong to a program that is being entered.
+/// Returns what a line of text can do. A line that the emulator does not recognise as a command may be a
+/// command for a real controller, or belong to a program that is being entered.
 inline Hazards hazards_of_line(std::string_view line) {
   namespace lang = interpreter::slim;
   const lang::ParseResult parsed = lang::parse_line(line, lang::kWidestDialect);
@@ -159,7 +159,8 @@ inline Hazards hazards_of_line(std::string_view line) {
   return command_hazards::kTable[command.verb] | (is_array ? Hazards::memory : Hazards::reads);
 }
 
-/// Returns the numbers of a line. A variable, an input or a clock in place of a number is not told.
+/// Returns the numbers in a line. The number is missing if the line contains a variable, an input or a clock
+/// instead.
 inline std::optional<CommandNumbers> numbers_of_command(std::string_view line) {
   namespace lang = interpreter::slim;
   using Kind = lang::Operand::Kind;

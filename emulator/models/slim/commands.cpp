@@ -1,4 +1,4 @@
-// The effects of SLIM's commands on the chain, for typed commands and for those of a program.
+// The effects of SLIM's commands on the chain, both for typed commands and for those of a program.
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -54,7 +54,7 @@ constexpr VerbActions stored_only(Action stored) { return {stored, is_refused}; 
 
 using ActionRow = HandlerRow<Verb, VerbActions>;
 
-/// Commands of the program flow come here only if they are typed, and if that is allowed.
+/// Program flow commands reach this code only if they are typed and allowed.
 constexpr ActionRow of_flow(Verb verb, Action typed = is_refused) {
   if (!lang::is_one_of(lang::kFlowVerbs, verb)) throw "the flow of a program does not carry it out";
   return {verb, typed_only(typed)};
@@ -67,13 +67,13 @@ constexpr ActionRow of_editor(Verb verb, Action typed) {
 constexpr std::array kCommandVerbs = [] {
   std::array<Verb, lang::kCommands.size()> verbs{};
   std::size_t count = 0;
-  // Queries are replaced by a command, because a key may occur twice.
+  // Queries are replaced by a command, which is possible because a key may occur twice.
   for (const lang::CommandRow& row : lang::kCommands) verbs[count++] = row.is_query() ? Verb::home : row.verb;
   return verbs;
 }();
 
-/// After a stop, the machine must not start again automatically: otherwise DN, or a command that an event has
-/// interrupted, would continue with the next move. A line of the program itself may have more to do.
+/// After a stop, the machine must not start again automatically. Otherwise, DN, or a command that an event
+/// has interrupted, would continue with the next move. A line of the program itself may have more to do.
 lang::Outcome::Program program_after_stop(const Setup& setup, From from) {
   using Program = lang::Outcome::Program;
   if (setup.chose(option("emergency_stop_program", "ends_also_by_its_own_line"))) return Program::ends;

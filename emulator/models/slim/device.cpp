@@ -91,7 +91,7 @@ std::optional<std::string> Slim::assign(std::string_view name, double value) {
 
 // --- memory and program ----------------------------------------------------------------------------
 
-/// Saves all values, because some may have been set when the device was made.
+/// Saves all values, because some may have been set when the device was created.
 void Slim::settle_memory() {
   state_.kept = state_.ram;
   keep_program(state_);
@@ -146,13 +146,13 @@ void Slim::run_interpreters(Tick tick) {
   if (watch() != nullptr) watch()->program_loaded(mark_of(state_.program));
   const Error error = step(state_.execution, tick, state_.program, setup_.language, *this);
   if (error == Error::none) return;
-  // A program that fails repeatedly is faster than its line: errors for which the line has no room are only
-  // stored.
+  // A program that fails repeatedly is faster than its line. If there is no room on the line for an error,
+  // the error is only stored.
   const bool is_said =
       chose(option("unasked_text", "errors_of_a_program_too")) && has_room_to_print(state_, setup_);
   const int module = is_said ? fail(state_, setup_, failed_module_, error)
                              : remember_error(state_, setup_, failed_module_, error);
-  // A host that asks T0 why its program has ended gets the error, even if it belonged to another motor.
+  // A host that asks T0 why its program ended receives the error even if it belonged to another motor.
   if (module != 0 && !state_.execution.running) note_error(state_, setup_, 0, error);
 }
 
@@ -168,7 +168,7 @@ Tick Slim::next_active_tick(Tick done) const {
 }
 
 Tick Slim::next_event_tick(Tick done, Tick limit, const ClearTravel& ahead) const {
-  // Values that a program and its events read change with motion.
+  // Values that a program and its events read change during motion.
   const bool is_looked_at = state_.execution.running || !lang::events_need_program(setup_.language);
   if (state_.touched || (is_looked_at && !program_is_held(state_, setup_))) return done + 1;
   const Tick next = state_.chain.next_event_tick(done, limit, ahead);
@@ -194,6 +194,6 @@ bool Slim::output(int terminal) const {
 }
 
 void Slim::set_encoder(int, std::int64_t) {
-}  // the servo closes its loop itself; see the model's known limitations
+}  // the servo closes its own loop; see the model's known limitations
 
 }  // namespace understudy::emulator::models::slim

@@ -1,11 +1,11 @@
-// SLIM: a chain of integrated servos behind one RS232 line. The host types commands and queries at module T0,
-// or lets it run a stored program; both act on the chain (chain/chain.h).
+// SLIM: a chain of integrated servos behind one RS232 line. The host sends commands and queries to module T0,
+// or starts a stored program. Both act on the chain (chain/chain.h).
 //
 //   a line ──> dialogue.cpp ──> an editor's line, a number for GETI, or a command
 //                                            └─> commands.cpp, queries.cpp ──> chain, memory, program
 //   a tick ──> device.cpp ──> program (interpreter/slim/flow.h) ──> commands.cpp
 //
-// The parts are listed in setup.h.
+// setup.h lists the parts.
 #pragma once
 
 #include <cstdint>
@@ -69,7 +69,7 @@ class Slim final : public StatefulDevice<Slim, State>,
   void load_program(std::string_view text) override;
   std::string program_text() const override;
   std::vector<ProgramLocation> program_locations() const override;
-  /// Returns the mistakes in a program text, for a device with these settings.
+  /// Returns the mistakes in a program text for a device with these settings.
   std::vector<ProgramMistake> mistakes_in(std::string_view text) const;
   std::vector<ProgramPart> parts_of(std::string_view text) const;
 
@@ -90,7 +90,7 @@ class Slim final : public StatefulDevice<Slim, State>,
   bool output(int terminal) const override;
   bool output_moves(int /*terminal*/) const override {
     return false;
-  }  // outputs that change by position or time do so in ticks that are run in full
+  }  // outputs that depend on position or time change in ticks that are run in full
   std::int64_t pulses_this_tick(int axis) const override { return state_.chain.module_at(axis).sent_pulses; }
   double speed_pps(int axis) const override { return state_.chain.speed_pps(axis); }
   std::optional<bool> servo_on(int axis) const override {
@@ -109,17 +109,17 @@ class Slim final : public StatefulDevice<Slim, State>,
  private:
   void watch_program(ProgramWatch* watch) override { set_watch(watch); }
 
-  // The machine on which a program runs: interpreter/slim/machine.h.
+  // The machine on which a program runs (interpreter/slim/machine.h).
   bool input(int number) const override { return ((state_.inputs[0] >> (number - 1)) & 1) != 0; }
   double value(const lang::Operand& operand) const override;
   lang::Outcome carry_out(const lang::Command& command) override;
 
-  /// Called at an event from outside, possibly after skipped ticks.
+  /// Called on an event from outside, possibly after skipped ticks.
   void wake();
 
   const Setup setup_;
-  int failed_module_ = 0;  // within a step of the program: the module whose command carry_out() has refused
-  mutable QueriesByName queries_{};  // not state, only a cache
+  int failed_module_ = 0;            // within a program step: the module whose command was refused
+  mutable QueriesByName queries_{};  // only a cache, not part of the state
 };
 
 }  // namespace understudy::emulator::models::slim

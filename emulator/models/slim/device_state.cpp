@@ -1,4 +1,4 @@
-// SLIM's state as bytes, and back.
+// Converts SLIM's state to bytes and back.
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -40,7 +40,7 @@ namespace understudy::emulator::models::slim {
 
 namespace {
 
-/// Checks programs with the chosen options; here they are compiled from their lines.
+/// Checks programs with the selected options and compiles them from their lines.
 void settle_programs(State& state, const lang::Options& options) {
   const std::vector<std::string> texts = state.program.texts();
   require_state(state.program.set_texts(texts, options), "a line is not a program command");
@@ -56,7 +56,7 @@ void settle_programs(State& state, const lang::Options& options) {
 
 void Slim::check_restored(State& restored) const {
   settle_programs(restored, setup_.language);
-  // Further checks depend on this bench's choices.
+  // Further checks depend on the choices in this bench.
   for (const Errors& errors : restored.errors) {
     require_state(errors.history.size() <= setup_.history_length(), "the error history is too long");
   }

@@ -32,8 +32,8 @@ namespace understudy::emulator::models::slim {
 
 namespace {
 
-/// Returns true if a line that arrives while a program waits for a number is still a command: one that is
-/// allowed while a program runs, except queries.
+/// Returns true if a line that arrives while a program waits for a number is still a command: any command
+/// that is allowed while a program runs, except queries.
 bool is_heard_instead_of_number(const Setup& setup, std::string_view line) {
   const lang::ParseResult parsed = lang::parse_line(line, setup.language);
   if (!parsed.line.command) return false;
@@ -48,7 +48,7 @@ bool takes_for_number(const State& state, const Setup& setup, std::string_view l
   return wants_number(state.execution) && !is_heard_instead_of_number(setup, line);
 }
 
-/// Executes a typed command. `lines` receives its reply.
+/// Executes a typed command. Its reply is stored in `lines`.
 Error execute(State& state, const Setup& setup, const lang::Machine& machine, lang::Command& command,
               std::vector<std::string>& lines) {
   if (const Error error = resolve_indices(command, machine); error != Error::none) return error;
@@ -76,7 +76,7 @@ Error execute(State& state, const Setup& setup, const lang::Machine& machine, la
 Error receive_command(State& state, const Setup& setup, const lang::Machine& machine, std::string_view line) {
   lang::ParseResult parsed = lang::parse_line(line, setup.language);
   if (parsed.error == Error::none && !parsed.line.command) {
-    // A label belongs in a program.
+    // Labels are only allowed in programs.
     if (parsed.line.label.empty()) return Error::none;
     fail(state, setup, 0, Error::syntax);
     return Error::syntax;

@@ -1,4 +1,4 @@
-// Handles a line of the dialogue, and makes the reply.
+// Handles a line of the dialogue, and creates the reply.
 #pragma once
 
 #include <string_view>
@@ -12,8 +12,7 @@
 namespace understudy::emulator::models::slim {
 
 TextRules text_rules(const Setup& setup);
-/// Enters a line of a program, gives a number to GETI or GETR, or executes a command. The reply is in the
-/// state.
+/// Enters a program line, passes a number to GETI or GETR, or executes a command. The reply is in the state.
 void receive_line(State& state, const Setup& setup, const lang::Machine& machine, std::string_view line);
 void receive_overlong(State& state, const Setup& setup);
 /// Executes a command silently, without using the line.

@@ -28,8 +28,9 @@ void note_error(State& state, const Setup& setup, int module, Error error) {
   if (errors.history.size() > setup.history_length()) errors.history.pop_back();
 }
 
-/// T0 reads the lines, so errors in a line belong to T0, whichever module the line names. Errors of a motor
-/// belong to its module, unless the module is not linked: then nobody could query it, and T0 has the error.
+/// T0 reads the lines, so errors in a line belong to T0, whatever module the line contains. Motor errors
+/// belong to the motor's module. If that module is not linked, nobody could query it, so the error belongs to
+/// T0.
 int remember_error(State& state, const Setup& setup, int module, Error error) {
   const bool is_of_line = error == Error::syntax || error == Error::range || error == Error::address;
   if (is_of_line || !state.chain.linked(module) || setup.errors_are_of_t0()) module = 0;

@@ -1,4 +1,4 @@
-// The meanings of the numbers in error replies.
+// The meanings of the error numbers in replies.
 #pragma once
 
 #include <array>
@@ -26,7 +26,7 @@ inline constexpr std::array<std::string_view, 14> kErrorWords{
     "the temperature is too high",
     "there is no such line or label, or the stack is full"};
 
-/// Returns the meaning of a reply such as "ERR 2", or an empty text for another line.
+/// Returns the meaning of a reply such as "ERR 2", or an empty text for any other line.
 inline std::string_view meaning_of_reply(const Setup& setup, std::string_view line) {
   constexpr std::string_view kBegin = "ERR ";
   if (!line.starts_with(kBegin)) return {};

@@ -18,7 +18,7 @@ class ProgramText final : public ProgramLanguage {
  public:
   std::string_view name() const override { return "SLIM program"; }
   std::string_view file_ending() const override { return ".slim"; }
-  /// Makes a device, because many details of a line depend on its choices.
+  /// Creates a device, because many details of a line depend on its choices.
   std::vector<ProgramMistake> check(std::string_view text, const DeviceSettings& settings) const override {
     return Slim(settings).mistakes_in(text);
   }

@@ -1,4 +1,4 @@
-// SLIM's programs as text: the lines that a host would enter. Its instructions are the model's commands.
+// SLIM's programs as text: the lines that a host would enter. The instructions are the model's commands.
 #pragma once
 
 #include "emulator/device/program_language.h"

@@ -25,8 +25,8 @@ using interpreter::slim::kIntegerMax;
 
 bool is_integer(const ParameterDefinition& row) { return row.type == ParameterDefinition::Type::integer; }
 
-/// Calls `visit(name, value, definition)` for everything that has a name, in the order of the lists. The
-/// definition is null for variables.
+/// Calls `visit(name, value, definition)` for all named values, in the order of the lists. The definition is
+/// null for variables.
 void for_each_name(auto& memory, SpeedNames names, auto visit) {
   for (int m = 0; m < kModules; ++m) {
     for (std::size_t place = 0; place < kParameterCount; ++place) {

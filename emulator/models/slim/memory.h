@@ -1,5 +1,5 @@
-// The numbers in a SLIM: parameters of its modules, variables, arrays. There is a copy in RAM and a retentive
-// one.
+// The numbers in a SLIM: parameters of its modules, variables, arrays. There is a copy in RAM and a
+// persistent copy.
 #pragma once
 
 #include <array>
@@ -24,21 +24,21 @@ struct Memory {
   bool operator==(const Memory&) const = default;
 };
 
-/// Returns the memory of a new device; the first `modules` are linked.
+/// Returns the memory of a new device, whose first `modules` modules are linked.
 Memory factory_memory(int modules);
 
-/// The names and ranges that the bench has chosen.
+/// The naming and the ranges that the bench has selected.
 struct MemoryForm {
   SpeedNames speed_names = SpeedNames::pn10_is_vm;
   int integer_min = interpreter::slim::kIntegerMin;
 };
 
-/// Returns the name of a parameter row, "T1PR3"; parameters of the whole chain have no prefix, as in
-/// commands.
+/// Returns the name of a parameter row, "T1PR3". As in commands, the parameters of the whole chain have no
+/// prefix.
 std::string parameter_name(int module, std::size_t number, SpeedNames names);
 
 /// write_image() writes the values that differ from `factory`, by name. read_image() reads them into a memory
-/// that is `factory` otherwise; it throws NvError for unknown names and impossible values.
+/// whose other values are those of `factory`. It throws NvError for unknown names and impossible values.
 void write_image(const Memory& memory, const Memory& factory, const MemoryForm& form, NvImage& image);
 Memory read_image(const NvImage& image, const Memory& factory, const MemoryForm& form);
 

@@ -1,4 +1,4 @@
-// Converts the retentive memory to and from a file.
+// Converts the persistent memory to and from a file.
 #pragma once
 
 #include <functional>
@@ -9,9 +9,9 @@
 
 namespace understudy::emulator::models::slim {
 
-/// Returns a function that writes the memory as it is now, and may be called at any later time.
+/// Returns a function that writes the present memory, and that may be called at any later time.
 std::function<void(NvImage&)> image_writer(const State& state, const Setup& setup);
-/// Throws NvError for an image that does not fit; then nothing has changed.
+/// Throws NvError for an image that does not fit; in that case, nothing changes.
 void read_image(State& state, const Setup& setup, const NvImage& given);
 
 }  // namespace understudy::emulator::models::slim

@@ -29,7 +29,7 @@ namespace understudy::emulator::models::slim {
 
 namespace {
 
-constexpr std::array<Firmware, 1> kFirmwares{100};  // the manual names none
+constexpr std::array<Firmware, 1> kFirmwares{100};  // the manual does not mention a version
 constexpr std::array<int, 5> kBauds{9600, 19200, 38400, 57600, 115200};
 constexpr std::array<PortRow, 1> kPorts{port_of_text(kBauds)};
 
@@ -51,7 +51,7 @@ constexpr ProofRow kProofs[] = {
     {"numbers", "?ERR|?ERC|R#|?PE|N#|N#, R#|NS, RS|TM"},
 };
 
-/// Owns the names in the tables, for as long as the process runs.
+/// Owns the names in the tables as long as the process runs.
 struct Names {
   std::vector<std::string> texts;
   std::vector<TerminalRow> terminals;

@@ -12,8 +12,8 @@ namespace understudy::emulator::models::slim {
 
 namespace {
 
-/// Writes the fewest digits that identify the number; before the point, zeros replace the others. (to_chars()
-/// itself writes all 39 digits of a large one.)
+/// Writes the fewest digits that identify the number. Before the point, zeros replace the other digits.
+/// (to_chars() itself writes all 39 digits of a large number.)
 std::string plain_digits(float real) {
   std::array<char, 32> text{};
   const auto [end, error] =

@@ -68,7 +68,7 @@ using interpreter::slim::Verb;
 
 constexpr Verb kAnsweredInWords[] = {Verb::query_version, Verb::query_error_history, Verb::query_time};
 
-/// Returns true if the function is the value of an existing query whose answer is a number.
+/// Returns true if the function shows the value of an existing query that returns a number.
 bool is_quantity(const Operand& operand) {
   const auto parsed = interpreter::slim::parse_line("?" + operand.text);
   if (parsed.error != Error::none || !parsed.line.command) return false;
@@ -89,7 +89,7 @@ Error check_parameter_line(const interpreter::slim::Command& command, bool modul
   const Operand& given = command.operands.front();
   std::optional<double> value;
   if (given.kind == Operand::Kind::integer || given.kind == Operand::Kind::real) value = given.number;
-  // Which of PN10 and PN14 is which does not matter: both have the same range.
+  // It does not matter which of PN10 and PN14 is the speed: both have the same range.
   return check_parameter(command.module, is_speed ? "TVM" : std::string_view(command.name), value,
                          SpeedNames::pn10_is_vm, module_taken_from_letter);
 }

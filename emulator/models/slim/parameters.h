@@ -1,5 +1,5 @@
-// SLIM: the parameters that its command list names (part 1 "參數", part 2 parameter table), as data.
-// Assignments, queries, range checks, the memory, ULC, describe and docs read these rows.
+// SLIM: the parameters in its command list (part 1 "參數", part 2 parameter table), as data. Assignments,
+// queries, range checks, the memory, ULC, `describe` and the documentation use these rows.
 #pragma once
 
 #include <array>
@@ -17,16 +17,16 @@ namespace understudy::emulator::models::slim {
 
 struct ParameterDefinition {
   std::string_view name;
-  std::string_view alias;  // a second name of the manual; empty if there is none
+  std::string_view alias;  // a second name in the manual; empty if there is none
   enum class Type : std::uint8_t { integer, real } type = Type::real;
   double lowest = 0;
   double highest = 0;
   bool above_lowest = false;  // the lowest value itself is not allowed
   double factory = 0;
   std::string_view unit;
-  bool host_only = false;  // one for the whole chain, stored in T0
+  bool host_only = false;  // one value for the whole chain, stored in T0
   std::string_view meaning;
-  std::string_view not_implemented{};  // what is missing, if the parameter is only stored
+  std::string_view not_implemented{};  // if the parameter is only stored: what is missing
 };
 
 inline constexpr double kMaxReal = 3.4028234663852886e38;  // float32
@@ -71,7 +71,7 @@ inline constexpr std::size_t kParameterCount = std::size(kParameters);
 /// The values of one module. A double holds an integer exactly.
 using Parameters = std::array<double, kParameterCount>;
 
-/// Returns the number of a row; an unknown name is a compile error.
+/// Returns the number of a row. An unknown name is a compile error.
 consteval std::size_t parameter(std::string_view name) {
   for (std::size_t i = 0; i < kParameterCount; ++i) {
     if (kParameters[i].name == name || (!kParameters[i].alias.empty() && kParameters[i].alias == name))
@@ -80,11 +80,11 @@ consteval std::size_t parameter(std::string_view name) {
   throw "no such parameter";
 }
 
-/// Says which of PN10 and PN14 is VM. The manual says only that both are speeds. Rows are ordered by meaning:
-/// with `pn14_is_vm` the first row is called PN14.
+/// Which of PN10 and PN14 is VM. The manual only states that both are speeds. Rows are ordered by meaning:
+/// with `pn14_is_vm`, the first row is called PN14.
 enum class SpeedNames : std::uint8_t { pn10_is_vm, pn14_is_vm };
 
-/// Converts a position in a list to the row whose name is at that position, and a row to its position.
+/// Converts a position in a list to the row with the name at that position, and a row to its position.
 constexpr std::size_t listed_at(std::size_t place, SpeedNames names) {
   static_assert(parameter("PN10") == 0 && parameter("PN14") == 1);
   return names == SpeedNames::pn14_is_vm && place < 2 ? 1 - place : place;
@@ -93,7 +93,7 @@ constexpr std::string_view name_of(std::size_t number, SpeedNames names) {
   return kParameters[listed_at(number, names)].name;
 }
 
-/// Finds a row by name or alias, in capitals.
+/// Finds a row by its name or alias, which must be in capitals.
 constexpr std::optional<std::size_t> find_parameter(std::string_view name, SpeedNames names) {
   for (std::size_t i = 0; i < kParameterCount; ++i) {
     const std::string_view alias = kParameters[i].alias;
@@ -108,19 +108,20 @@ constexpr Parameters factory_parameters() {
   return all;
 }
 
-/// Returns the value as the parameter stores it: a real is rounded to 32 bits. Returns nothing if it is out
+/// Returns the value as the parameter stores it: reals are rounded to 32 bits. Returns nothing if it is out
 /// of range.
 std::optional<double> fitted(const ParameterDefinition& row, double value);
 
-/// The limit of TM, which is set like a parameter.
+/// The limit of TM, which is set in the same way as a parameter.
 inline constexpr double kMaxClock_s = 1e9;
 
-/// Returns why an assignment is refused in any state of the chain: an unknown parameter (syntax), or a value
-/// that it cannot have. Without a value, only the name is checked. An axis map may name a module twice only
-/// if the last letter gets the module.
+/// Returns why an assignment is refused in any state of the chain: the parameter is unknown (syntax), or it
+/// cannot have this value. Without a value, only the name is checked. In an axis map, a module may occur
+/// twice only if the last letter receives the module.
 Error check_parameter(int module, std::string_view name, std::optional<double> value, SpeedNames names,
                       bool module_taken_from_letter);
-/// Like check_parameter(), for a program line, whose value may be a variable; all other lines are accepted.
+/// Like check_parameter(), but for a program line, whose value may be a variable. All other lines are
+/// accepted.
 Error check_parameter_line(const interpreter::slim::Command& command, bool module_taken_from_letter);
 
 }  // namespace understudy::emulator::models::slim

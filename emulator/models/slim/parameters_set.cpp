@@ -23,7 +23,7 @@ namespace understudy::emulator::models::slim {
 
 namespace {
 
-/// The numbers of the parameters that define the user unit: `pulses` pulses are `units` user units.
+/// The parameter numbers that define the user unit: `pulses` pulses equal `units` user units.
 struct UserUnit {
   std::size_t pulses = parameter("PN45");
   std::size_t units = parameter("PN46");
@@ -40,7 +40,7 @@ UserUnit user_unit(const Setup& setup) {
              : UserUnit{};
 }
 
-/// Two of PN44, PN45 and PN46 are pulses and units; the third one is stored only.
+/// Two of PN44, PN45 and PN46 are the pulses and the units; the third one is only stored.
 Error set_scale(State& state, const Setup& setup, int module, std::size_t number, double value) {
   const UserUnit unit = user_unit(setup);
   if (!unit.includes(number)) return Error::none;
@@ -51,7 +51,7 @@ Error set_scale(State& state, const Setup& setup, int module, std::size_t number
   return state.chain.settings().set_scale(module, of(unit.pulses), of(unit.units));
 }
 
-/// Applies a parameter to the chain, before it is stored.
+/// Applies a parameter to the chain before it is stored.
 Error apply_parameter(State& state, const Setup& setup, int module, std::size_t number, double value) {
   ChainSettings chain = state.chain.settings();
   switch (number) {
@@ -94,7 +94,7 @@ Error set_parameter(State& state, const Setup& setup, int module, std::string_vi
   const auto number = find_parameter(name, names);
   const ParameterDefinition& row = kParameters[*number];
   const auto fits = fitted(row, value);
-  if (name == "TVM" && module == 0) {  // of all linked modules at once
+  if (name == "TVM" && module == 0) {  // for all linked modules, immediately
     if (const Error error = state.chain.settings().set_tvm(*fits); error != Error::none) return error;
     for (int m = 0; m < kModules; ++m) {
       if (state.chain.linked(m)) state.ram.parameters[at(m)][*number] = *fits;

@@ -1,4 +1,4 @@
-// Sets parameters and axis letters while the controller runs, and saves its numbers and program.
+// Sets parameters and axis letters while the controller is running, and saves its numbers and program.
 #pragma once
 
 #include <string>
@@ -16,19 +16,19 @@ namespace understudy::emulator::models::slim {
 Error linked(const State& state, int module);
 
 Error set_parameter(State& state, const Setup& setup, int module, std::string_view name, double value);
-/// Applies all parameters to a chain that has just been made.
+/// Applies all parameters to a newly created chain.
 void apply_all_parameters(State& state, const Setup& setup);
-/// Executes DF. It is refused while anything is in progress whose units it would change.
+/// Executes DF. It is refused while anything is in progress whose units would change.
 Error restore_factory_parameters(State& state, const Setup& setup);
 /// Returns the answer to ULC.
 std::vector<std::string> parameter_list(const State& state, const Setup& setup);
 
-/// Executes TX= ..., and applies the map of PN37 at power-up.
+/// Executes TX= ..., and applies the map in PN37 at power-up.
 Error assign_axis(State& state, const Setup& setup, Letter letter, int module);
-/// Sets PN37 to the map that is in effect.
+/// Stores the present axis map in PN37.
 void keep_axis_map(State& state);
 
-// Execute SAVE P, SAVE D and SAVE C.
+// These execute SAVE P, SAVE D and SAVE C.
 void keep_parameters(State& state);
 void keep_data(State& state);
 void keep_program(State& state);

@@ -1,4 +1,4 @@
-// Power-up, power-down and the inputs of a SLIM.
+// Handles power-up, power-down and the inputs of a SLIM.
 #pragma once
 
 #include "base/simulated_time.h"

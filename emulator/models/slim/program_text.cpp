@@ -41,7 +41,7 @@ ReadProgram read_program(const Setup& setup, std::string_view text) {
   for (int number = 1; std::getline(lines, line); ++number) {
     if (!line.empty() && line.back() == '\r') line.pop_back();
     const std::size_t first = line.find_first_not_of(" \t");
-    // Files may have empty lines and comments.
+    // Files may contain empty lines and comments.
     if (first == std::string::npos || line[first] == ';' || line[first] == '#') continue;
     const Error error = read.program.insert(read.program.size(), line, setup.language);
     if (error == Error::none) {
@@ -56,7 +56,7 @@ ReadProgram read_program(const Setup& setup, std::string_view text) {
         : error == Error::address     ? "begins with a label that another line has"
                                       : lang::why_not_command(std::string_view(line).substr(first));
     read.mistakes.push_back({number, static_cast<int>(first) + 1, what});
-    if (error == Error::buffer_full) break;  // the following lines would not fit either
+    if (error == Error::buffer_full) break;  // the remaining lines would not fit, either
     if (read.mistakes.size() >= kMaxMistakes) break;
   }
   return read;
@@ -78,7 +78,7 @@ std::uint64_t mark_of(const lang::Program& program) {
   std::uint64_t mark = hash_of({});
   for (int i = 0; i < program.size(); ++i) {
     const std::string& text = program.line(i).text;
-    // The null at its end separates lines.
+    // The terminating null separates the lines.
     mark = hash_of(std::as_bytes(std::span(text.c_str(), text.size() + 1)), mark);
   }
   return mark;

@@ -1,4 +1,4 @@
-// Reads the text of a SLIM's program, and returns the position of the program.
+// Reads the text of a SLIM program, and returns the position of the program.
 #pragma once
 
 #include <cstdint>
@@ -14,15 +14,15 @@
 
 namespace understudy::emulator::models::slim {
 
-/// A program after reading: its valid lines, and the mistakes.
+/// The result of reading a program: its valid lines, and the mistakes.
 struct ReadProgram {
   lang::Program program{};
-  std::vector<int> text_lines{};  // where its lines are, from 1
+  std::vector<int> text_lines{};  // the line numbers of its lines, counted from 1
   std::vector<ProgramMistake> mistakes{};
 };
 ReadProgram read_program(const Setup& setup, std::string_view text);
 
-/// Returns the program as its observers count it.
+/// Returns the program as observers count it.
 ProgramPart part_of(const ReadProgram& read);
 /// Returns a hash that identifies the program.
 std::uint64_t mark_of(const lang::Program& program);

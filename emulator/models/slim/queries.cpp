@@ -98,7 +98,7 @@ unsigned status_bits(const State& state, int module) {
 constexpr std::array kQueryVerbs = [] {
   std::array<Verb, lang::kCommands.size()> verbs{};
   std::size_t count = 0;
-  // Other commands are replaced by a query, because a key may occur twice.
+  // Other commands are replaced by a query, which is possible because a key may occur twice.
   for (const lang::CommandRow& row : lang::kCommands) {
     verbs[count++] = row.is_query() ? row.verb : Verb::query_parameter;
   }
@@ -138,7 +138,7 @@ struct Queries {
       answer.number = value;
       return words(std::move(text));
     }
-    /// Answers a query of an electrical value, which is not modelled (kKnownLimitations).
+    /// Answers a query for an electrical value, which is not modelled (kKnownLimitations).
     Error electrical(double value) const {
       setup.device.warn_not_implemented(command.name, "electrical values are constant");
       return whole(value);

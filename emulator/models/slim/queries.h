@@ -14,11 +14,11 @@ namespace understudy::emulator::models::slim {
 struct Answer {
   std::string name{};
   std::string text{};
-  std::optional<double> number{};  // the value of a numeric query
+  std::optional<double> number{};  // the value, if the query is numeric
   bool has_words = true;           // false: only the number is needed
 };
 
-/// Answers a query whose indices are resolved.
+/// Answers a query whose indices are already resolved.
 Error query(const State& state, const Setup& setup, const lang::Command& command, Answer& answer);
 
 }  // namespace understudy::emulator::models::slim

@@ -16,7 +16,7 @@ namespace understudy::emulator::models::slim {
 
 namespace {
 
-/// Returns the chosen option of each row, from the device.
+/// Returns the selected option of each row, from the device.
 ChainOptions options_of(const Device& device) {
   decltype(ChainOptions::numbers) numbers{};
   for (std::size_t row = 0; row < numbers.size(); ++row) numbers[row] = device.choice(row);

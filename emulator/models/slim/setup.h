@@ -1,20 +1,20 @@
-// What a SLIM needs besides its state: its device, which has time, inputs and a log, and the options that its
-// bench has chosen. All parts of the controller are functions on a State and a Setup:
+// What a SLIM needs in addition to its state: its device, which provides time, inputs and a log, and the
+// options that the bench selected. All parts of the controller are functions on a State and a Setup:
 //
 //   setup.h             choices, terminals, time
 //   error_log.h         ?ERR and ?ERC
-//   output.h            what is sent, and how a failure is reported
-//   parameters_set.h    parameters and axis letters; what is persistent
+//   output.h            sending text, and reporting failures
+//   parameters_set.h    parameters and axis letters; saving them
 //   variables.h         N#, R#, NS(), RS() and the clock
 //   power.h             power-up, power-down, inputs
-//   memory_image.h        the retentive memory as a file
-//   program_text.h      programs that are loaded
-//   queries.h           what queries answer
-//   actions.h           what commands do (commands.cpp)
+//   memory_image.h      the persistent memory as a file
+//   program_text.h      loaded programs
+//   queries.h           the answers to queries
+//   actions.h           the effects of commands (commands.cpp)
 //   by_name.h           queries and assignments that bypass the line
-//   dialogue.h          what happens to a line
+//   dialogue.h          the handling of a line
 //
-// Each may use the ones above it. device.h combines them into a device.
+// Each part may use the parts above it. device.h combines them into a device.
 #pragma once
 
 #include <cstddef>
@@ -37,7 +37,7 @@ namespace understudy::emulator::models::slim {
 
 namespace lang = interpreter::slim;
 
-// The terminals of a module. Those of T0 come first, then those of T1, and so on.
+// The terminals of a module. Those of T0 come first, followed by those of T1, and so on.
 inline constexpr int kInputs = lang::kInputCount;
 inline constexpr int kHorg = kInputs;
 inline constexpr int kAnalog = kHorg + 1;
@@ -50,7 +50,7 @@ struct Setup {
   explicit Setup(const Device& of);
 
   const Device& device;
-  const int modules;  // this many are linked in the factory settings
+  const int modules;  // how many modules are linked in the factory settings
   const ChainOptions options;
   const lang::Options language;
 
@@ -59,7 +59,7 @@ struct Setup {
   Tick now() const { return device.now(); }
   std::int32_t input(int module, int which) const { return device.input(terminal(module, which)); }
   bool level(int module, int which) const { return input(module, which) != 0; }
-  /// Returns the levels of a module's inputs now, bit 0 for input 1.
+  /// Returns the present levels of a module's inputs; bit 0 is input 1.
   std::uint8_t input_levels(int module) const {
     unsigned levels = 0;
     for (int i = 0; i < kInputs; ++i) levels |= (level(module, i) ? 1U : 0U) << i;
@@ -84,12 +84,12 @@ struct Setup {
   std::size_t history_length() const { return static_cast<std::size_t>(number(numbers("history_length"))); }
   bool history_is_kept() const { return chose(option("history_kept", "for_ever")); }
   bool has_input_mask() const { return !chose(option("input_mask", "error_1")); }
-  /// Returns true if a module with an axis letter gives it up for a new one.
+  /// Returns true if a module that has an axis letter loses it when it receives a new one.
   bool takes_letters_away() const { return takes_letters_away(options); }
   static bool takes_letters_away(const ChainOptions& options) {
     return options.chose(option("axis_values", "is_taken_from_its_letter"));
   }
-  /// Returns the parameter's canonical name: PR4 is another name of PR3, unless it is a separate speed.
+  /// Returns the canonical name of the parameter: PR4 is another name for PR3, unless it is a separate speed.
   std::string_view canonical(std::string_view parameter) const {
     return parameter == "PR4" && !options.lines_have_own_speed() ? "PR3" : parameter;
   }

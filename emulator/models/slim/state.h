@@ -37,11 +37,11 @@ struct State {
   lang::Editor editor{};
   lang::Execution execution{};
   std::array<Errors, kModules> errors{};
-  std::array<std::uint8_t, kModules> inputs{};  // bit n: input n + 1, as sampled in this tick
+  std::array<std::uint8_t, kModules> inputs{};  // bit n: input n + 1 as sampled in this tick
   Tick powered_at = 0;                          // the tick from which ?time counts
   Tick clock_zero = 0;                          // the tick from which TM counts
-  std::string output{};                         // not yet read by the line
-  bool touched = true;                          // an outside event has come since the last tick
+  std::string output{};                         // not read by the line yet
+  bool touched = true;                          // an outside event has occurred since the last tick
 
   bool operator==(const State&) const = default;
 };

@@ -1,4 +1,4 @@
-// The fields of a SLIM's state (base/state/fields.h), in the order of the bytes.
+// The fields of a SLIM's state (base/state/fields.h), in the order of the saved bytes.
 #pragma once
 
 #include <string>

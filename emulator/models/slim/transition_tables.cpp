@@ -36,7 +36,7 @@ std::optional<ActiveTask> task_of(Activity activity) {
 ActiveTask task_of(const lang::Execution& execution) {
   lang::Hold hold = execution.hold;
   for (const lang::Frame& frame : execution.stack) {
-    if (frame.of_event) hold = frame.hold;  // what the event's routine has interrupted
+    if (frame.of_event) hold = frame.hold;  // what the event routine has interrupted
   }
   switch (hold) {
     case lang::Hold::number: return ActiveTask::program_waits_for_number;

@@ -15,7 +15,7 @@ inline constexpr std::size_t kErrorTable = 2;
 
 std::span<const TransitionTable> transition_tables();
 
-/// Notes the tasks of all modules and of the program at an event.
+/// Records the tasks of all modules and of the program when an event occurs.
 void note_tasks(const State& state, Event event);
 
 }  // namespace understudy::emulator::models::slim

@@ -13,7 +13,7 @@ namespace understudy::emulator::models::slim {
 
 /// Returns the value of TM.
 std::int64_t clock_s(const State& state, const Setup& setup);
-/// Returns the value of an operand; 0 for a function that shows a query's value.
+/// Returns the value of an operand, or 0 for a function that shows a query's value.
 double value_of(const State& state, const Setup& setup, const lang::Operand& operand);
 Error set_variable(State& state, const Setup& setup, const lang::Operand& variable, double value);
 

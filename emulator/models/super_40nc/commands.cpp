@@ -56,7 +56,7 @@ bool Commands::has_errors_for_a_scan() const {
   return has_one && chose(option("serr_clears", "one_scan"));
 }
 
-/// While the emergency lasts, resets a program, or pauses an axis program at its line.
+/// During an emergency, resets a program, or pauses an axis program at its line.
 void Commands::stop_by_emergency(language::Area area, bool is_new) {
   const language::Phase phase = program_state_.steps.programs[language::index_of(area)].phase;
   const bool pauses =
@@ -64,8 +64,8 @@ void Commands::stop_by_emergency(language::Area area, bool is_new) {
   if (!pauses || (is_new && phase == language::Phase::held))
     return programs_.handle(language::Event::emergency, area);
   if (!is_new) return;
-  programs_.handle(language::Event::limit_pauses, area);  // the motion of the program's line is over
-  programs_.handle(language::Event::hold, area);          // holds the program's wait, or its lines
+  programs_.handle(language::Event::limit_pauses, area);  // the motion of the program's line has ended
+  programs_.handle(language::Event::hold, area);          // holds the program's wait or its lines
 }
 
 void Commands::apply_emergency() {
@@ -123,7 +123,7 @@ void Commands::apply_stops() {
   }
 }
 
-/// Executes what the panel triggers when it turns its pages.
+/// Executes what the panel does when its pages are turned.
 void Commands::apply_pages() {
   if (rises(m85::kParameterPageLeft)) {
     const bool renews_all = chose(option("parameter_moment", "when_m8500_rises"));
@@ -164,7 +164,7 @@ void Commands::drop_edges() {
   }
 }
 
-/// M8004: holds running motions of programs and the PLC like a pause, if that is chosen.
+/// M8004: a choice makes it hold running motions of programs and the PLC, like a pause.
 void Commands::hold_while_inhibited() {
   const bool is_inhibited_now = is_on(m8::kMotionInhibit);
   const bool has_changed = is_inhibited_now != state_.was_inhibited;
@@ -179,7 +179,7 @@ void Commands::hold_while_inhibited() {
     }
     return;
   }
-  // Motions that a pause also holds stay held.
+  // Motions that are also held by a pause stay held.
   const auto is_paused = [&](Mover mover) {
     return mover < Mover::plc && program_state_.steps.programs[static_cast<std::size_t>(mover)].machine_holds;
   };
@@ -194,7 +194,7 @@ void Commands::see_contacts() {
   ground_.state().touched = false;
   for (const int number : kCommandContacts) {
     const bool level = ground_.contact(number);
-    // A contact that was ON only for this scan falls in the next one.
+    // A contact that was ON only for this scan goes OFF in the next one.
     if (!level && is_on(number)) ground_.touch();
     ground_.state().contacts.see(number, level);
   }
@@ -211,7 +211,7 @@ void Commands::check_contacts() {
   program_state_.file_changed = false;
 }
 
-/// Executes M8008. File and recipe change as if they had been written.
+/// Executes M8008. The file and the recipe change as if their numbers had been written.
 void Commands::reset_parameters() {
   const bool leaves_some = chose(option("m8008_scope", "but_for_d9000_and_d9026"));
   const auto stays = [&](const RegisterRow& row) {

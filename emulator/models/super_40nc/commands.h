@@ -1,6 +1,6 @@
-// Handles command contacts in a scan, in this order: emergency, resets, STOP keys, pages of the panel, M8008,
-// ZERO SET, HOME, ZERO, jog, hand wheel. A level that stays ON after it was void, or after a stop, must go
-// OFF before it acts again.
+// Handles command contacts in a scan, in this order: emergency, resets, STOP keys, panel pages, M8008, ZERO
+// SET, HOME, ZERO, jog, hand wheel. If a contact stays ON after a void request or a stop, it must go OFF
+// before it has an effect again.
 #pragma once
 
 #include "base/simulated_time.h"
@@ -14,10 +14,10 @@
 namespace understudy::emulator::models::super_40nc {
 
 struct ScanState {
-  bool run_switch = false;  // PLC_RUN, as sampled in this tick
+  bool run_switch = false;  // PLC_RUN as sampled in this tick
   bool emergency_obeyed = false;
-  bool was_inhibited = false;  // by M8004, in the last scan
-  Tick logo_at = kNever;       // when M8502 comes on
+  bool was_inhibited = false;  // M8004 in the last scan
+  Tick logo_at = kNever;       // when M8502 goes on
   bool logo_over = false;
 
   bool operator==(const ScanState&) const = default;
@@ -37,9 +37,9 @@ class Commands : protected Chips {
         program_state_(program_state),
         state_(state) {}
 
-  /// Executes the scan's step of contacts, if anything was written since the last one.
+  /// Handles the contacts in a scan, if anything was written since the last scan.
   void check_contacts();
-  /// Returns true if axes have errors that, if so chosen, the next scan clears.
+  /// Returns true if axes have errors that the next scan clears (a choice).
   bool has_errors_for_a_scan() const;
   /// Called after the PLC, which has seen them.
   void forget_errors_of_a_scan();

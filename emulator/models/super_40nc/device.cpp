@@ -62,12 +62,13 @@ void Super40nc::sample_inputs(Tick tick) {
   if (!take_inputs_changed()) return;
   const bool was_emergency = state_.emergency;
   check_inputs();
-  // A contact that is ON before the first scan is not an edge, even if a listing came before the inputs did.
+  // A contact that is ON before the first scan does not count as an edge, even if a listing was loaded before
+  // the inputs were read.
   parts_.programs.begin_first_scan();
   if (was_emergency != state_.emergency) state_.touched = true;
 }
 
-/// Runs PLC, keys, contacts and step programs in this order: later writers win.
+/// Runs the PLC, keys, contacts and step programs in this order; the last write takes effect.
 void Super40nc::run_interpreters(Tick tick) {
   Programs& programs = parts_.programs;
   if (!programs.scans_in(tick)) return;
@@ -112,7 +113,7 @@ void Super40nc::end_path() {
   if (const auto why = parts_.paths.path_ended()) parts_.programs.path_broken(*why);
 }
 
-/// Checks the comparators that the chip cannot evaluate, unless the tick has checked them already.
+/// Checks the comparators that the chip cannot evaluate, unless the tick has already checked them.
 void Super40nc::stop_by_comparators(int axis) {
   for (std::size_t which = 0; which < kComparators; ++which) {
     const auto stop = parts_.axes.comparators.compare(axis, which);

@@ -1,5 +1,5 @@
 // SUPER-40NC: a four-axis controller on Modbus RTU with two ports. Its state is one value, and its parts
-// (parts.h) are functions over it. The device has the facets that others see, and the order of a tick.
+// (parts.h) are functions on this state. The device contains the facets and the order of a tick.
 #pragma once
 
 #include <array>
@@ -107,7 +107,7 @@ class Super40nc final : public StatefulDevice<Super40nc, State>,
   void blank_state();
   void end_path();
   void stop_by_comparators(int axis);
-  /// Returns the first tick after `done` at which something is due by time.
+  /// Returns the first tick after `done` in which a timed event is due.
   Tick next_timed_tick(Tick done) const;
 
   Parts parts_{*this, *this, state_};

@@ -77,7 +77,7 @@ Value read_file_changed(const Super40nc& device, Cell) { return device.state().s
 void write_command(Super40nc& device, Cell cell, Value level) {
   const bool is_of_axes = cell.argument >= m8x::kStart && cell.argument < m85::kParameterPageLeft;
   const int contact = is_of_axes ? of_axis(cell.argument, cell.index) : cell.argument + cell.index;
-  if (device.chose(option("command_latch", "lost"))) return;  // only its level at the scan counts
+  if (device.chose(option("command_latch", "lost"))) return;  // only its level in the scan counts
   device.parts().ground.state().contacts.write(contact, level != 0);
 }
 

@@ -1,5 +1,5 @@
-// Runs many ticks in one step, while a SUPER-40NC only counts: the PLC has settled, no step program runs, and
-// the axes meet nothing.
+// Runs many ticks in one step while a SUPER-40NC only counts: the PLC has settled, no step program is
+// running, and the axes encounter nothing.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -27,7 +27,7 @@ Tick Super40nc::next_timed_tick(Tick done) const {
 
 Tick Super40nc::next_active_tick(Tick done) const {
   const Counters& counters = parts_.axes.counters;
-  const bool scans = parts_.programs.plc_scans();  // fast_forward_to() does them in bulk
+  const bool scans = parts_.programs.plc_scans();  // fast_forward_to() runs them in bulk
   if (scans || state_.touched || inputs_changed() || parts_.programs.are_busy() ||
       parts_.commands.has_errors_for_a_scan()) {
     return done + 1;

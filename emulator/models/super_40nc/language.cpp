@@ -23,7 +23,7 @@ namespace {
 
 namespace lang = interpreter::super_40nc;
 
-/// Returns "PCXYZU" as in the manual's lists: the areas in which an instruction acts.
+/// Returns the areas in which an instruction has an effect, as in the manual's lists: "PCXYZU".
 std::string areas_of(const lang::InstructionRow& row) {
   const auto acts_in = [&](lang::Area area) {
     return lang::has(row.areas, area) && !lang::has(row.void_in, area);
@@ -48,7 +48,7 @@ std::string_view cost_of(const lang::InstructionRow& row) {
   return "";
 }
 
-/// The instruction rows, and the data to which they refer.
+/// The rows of the instructions, and the data to which they refer.
 struct Instructions {
   std::array<std::array<OperandRow, 4>, lang::kInstructions.size()> operands;
   std::array<std::string, lang::kInstructions.size()> areas;
@@ -81,7 +81,7 @@ class ProgramListing final : public ProgramLanguage {
     static const Instructions instructions;
     return instructions.rows;
   }
-  /// Checks a listing; some rules depend on choices.
+  /// Checks a listing. Some rules depend on choices.
   std::vector<ProgramMistake> check(std::string_view text, const DeviceSettings& settings) const override {
     return Super40nc(settings).parts().programs.stored().mistakes_in(text);
   }
@@ -92,7 +92,7 @@ class ProgramListing final : public ProgramLanguage {
     return Super40nc(settings).parts().programs.stored().parts_of(text);
   }
   bool parts_run_at_once() const override { return true; }
-  /// A key acts when it goes ON, so these requests release it first.
+  /// A key reacts when it goes ON, so these requests release it first.
   std::span<const ProgramControl> controls() const override {
     using By = ProgramControl::By;
     static constexpr std::array<ProgramControl, 11> kControls{{{"start C", By::registers, "M8000=1"},

@@ -1,4 +1,4 @@
-// The language of SUPER-40NC's programs, as its model offers it.
+// The language of SUPER-40NC's programs, for its model.
 #pragma once
 
 #include "emulator/device/program_language.h"

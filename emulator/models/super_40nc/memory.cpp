@@ -1,4 +1,4 @@
-// The retentive memory of a SUPER-40NC: latched contacts and registers, recipes; also power-up and M8008.
+// The persistent memory of a SUPER-40NC (latched contacts and registers, recipes), power-up and M8008.
 #include <cstddef>
 #include <functional>
 #include <string>

@@ -1,4 +1,4 @@
-// SUPER-40NC as a model, from which devices are made.
+// SUPER-40NC as a model, from which devices are created.
 #pragma once
 
 #include <string_view>

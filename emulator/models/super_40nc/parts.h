@@ -1,4 +1,4 @@
-// The parts of a SUPER-40NC, over its state. Each may use only those before it.
+// The parts of a SUPER-40NC, which work on its state. Each part may use only the parts before it.
 #pragma once
 
 #include "emulator/device/device.h"

@@ -1,4 +1,4 @@
-// RS-M8194H: macros: their download, storage and execution (8, 9). lang::Machine executes their lines.
+// RS-M8194H: download, storage and execution of macros (8, 9). lang::Machine executes their lines.
 #pragma once
 
 #include <array>
@@ -24,7 +24,7 @@
 
 namespace understudy::emulator::models::rs_m8194h {
 
-/// The value for "no download". It has a macro's name only because each download has one.
+/// The value for "no download". It contains a macro's name only because every download has a name.
 inline const lang::Download kNoDownload{.name = {.is_isr = false, .number = 1}};
 
 /// Inputs 115 to 119: the macro, the command, the line and the error.
@@ -32,13 +32,13 @@ using MacroReport = std::array<std::uint16_t, 5>;
 
 struct ProgramState {
   lang::State rsm = lang::State::ready;
-  lang::Download download = kNoDownload;  // valid while `rsm` says that a download is open
+  lang::Download download = kNoDownload;  // valid only if `rsm` is not `ready`
   lang::DownloadStatus downloaded{};
   lang::Execution execution{};
   MacroReport execution_fault{};
   bool paused = false;         // paused by a trigger
-  std::uint8_t paused_by = 0;  // channel of that trigger
-  int steps_left = 0;          // steps left in this tick
+  std::uint8_t paused_by = 0;  // the channel of that trigger
+  int steps_left = 0;          // remaining steps in this tick
 
   bool operator==(const ProgramState&) const = default;
 };
@@ -59,9 +59,9 @@ class Programs final : public Part {
 
   // --- download ---------------------------------------------------------------------------------
   bool is_downloading() const { return state_.rsm != lang::State::ready; }
-  /// Takes a message while a macro is being downloaded, or one that opens a download.
+  /// Handles a message that opens a download, or that arrives during a download.
   lang::Fault take_download(const lang::Decoded& decoded);
-  /// Return whether more lines fit into the download, and add one that fits.
+  /// These return true if more lines fit in the download, and add a line that fits.
   bool has_room_for(int lines) const;
   void add_line(const lang::Command& line);
 
@@ -72,7 +72,7 @@ class Programs final : public Part {
   /// Stores a listing, and returns the channels of its triggers.
   std::vector<int> load(std::string_view text);
   std::string text() const;
-  /// Returns where macros are, for observers (program_location.cpp).
+  /// Returns the current positions of the macros, for observers (program_location.cpp).
   std::vector<ProgramLocation> locations() const;
 
   // --- running ----------------------------------------------------------------------------------
@@ -80,14 +80,14 @@ class Programs final : public Part {
   bool mp_runs() const { return state_.execution.mp.is_alive(); }
   bool isr_runs() const { return !state_.execution.isrs.empty(); }
   bool is_alive() const { return state_.execution.is_alive(); }
-  /// If so chosen, calls are refused while an MP runs.
+  /// A choice can refuse calls while an MP is running.
   bool are_calls_refused() const {
     return mp_runs() && !chose(option("calls_while_an_mp_runs", "wait_their_turn"));
   }
   void start_mp(int number);
-  /// Ends all macros, as MP_TERMINATE does.
+  /// Ends all macros, like MP_TERMINATE.
   void terminate();
-  /// Ends all macros and the pause, as RESET_CARD does.
+  /// Ends all macros and the pause, like RESET_CARD.
   void reset() {
     state_.execution = {};
     state_.paused = false;
@@ -96,9 +96,9 @@ class Programs final : public Part {
   void drop_wait() { lang::drop_wait(state_.execution, acts_on_); }
   void run_tick(Tick tick);
   void set_watch(ProgramWatch* watch) { acts_on_.set_watch(watch); }
-  /// Ends a restored execution that no run of these macros can have reached.
+  /// Ends a restored execution that running these macros cannot have produced.
   void check_restored();
-  /// Return true if the memory's macros are compiled, and discard the compiled ones.
+  /// These return true if the compiled macros are up to date, and discard the compiled macros.
   bool is_compiled() const { return compiled_revision_ == memory_.state().blocks.revision(); }
   void forget_compiled() { compiled_revision_ = UINT64_MAX; }
 
@@ -117,7 +117,7 @@ class Programs final : public Part {
   Status& status_;
   Interrupts& interrupts_;
   lang::Machine& acts_on_;
-  // Not state: compiled from the text blocks whenever these have changed.
+  // Not part of the state: compiled from the text blocks whenever those have changed.
   mutable lang::MacroStore macros_;
   mutable lang::TriggerTable triggers_{};
   mutable std::uint64_t compiled_revision_ = UINT64_MAX;

@@ -1,4 +1,4 @@
-// RS-M8194H: the module's report about itself: how it was booted, and what it has just finished (4.16.2).
+// RS-M8194H: the module's status: how it was booted, and what it has just finished (4.16.2).
 #pragma once
 
 #include <cstdint>
@@ -16,10 +16,10 @@ inline constexpr std::uint8_t kMpFinished = 6;
 inline constexpr std::uint8_t kIsrFinished = 8;
 
 struct StatusState {
-  bool at_init = false;       // the switch, as found at power-up
-  std::uint8_t finished = 0;  // the last state that has passed within a tick
+  bool at_init = false;       // the position of the switch at power-up
+  std::uint8_t finished = 0;  // the last state that passed within a tick
   Tick finished_at = 0;       // the tick in which it passed
-  Tick resetting_until = 0;   // end of RESET_CARD
+  Tick resetting_until = 0;   // the end of RESET_CARD
 
   bool operator==(const StatusState&) const = default;
 };
@@ -30,16 +30,16 @@ class Status final : public Part {
 
   StatusState& state() { return state_; }
   const StatusState& state() const { return state_; }
-  /// Returns true if it was booted with the switch at Init.
+  /// Returns true if the module was booted with the switch at Init.
   bool is_deaf() const { return state_.at_init && !chose(option("init_switch", "runs_all_the_same")); }
   bool is_resetting() const { return state_.resetting_until > now(); }
-  /// Records a state of input 101 that has passed within the tick.
+  /// Records a state of input 101 that passed within the tick.
   void pass(std::uint8_t finished) {
     if (!machine_options().finished_states_show) return;
     state_.finished = finished;
     state_.finished_at = now();
   }
-  /// Returns true while the state of input 101 changes by itself.
+  /// Returns true while the state in input 101 changes without a request.
   bool changes() const {
     return is_resetting() || (machine_options().finished_states_show && state_.finished_at + 1 >= now());
   }

@@ -20,7 +20,8 @@ bool is_on(const FrnetWords& words, int channel) {
   return (words[static_cast<std::size_t>(channel / kFrnetChannels)] >> (channel % kFrnetChannels) & 1) != 0;
 }
 
-/// Returns true if a change of level fires. If `at_start`, levels that are already present count too.
+/// Returns true if a change of level fires the trigger. If `at_start`, levels that are already present also
+/// count.
 bool fires(lang::TriggerCondition condition, bool was, bool is, bool at_start) {
   switch (condition) {
     case lang::TriggerCondition::none: return false;
@@ -68,8 +69,8 @@ void Triggers::check(const FrnetWords& before, bool at_start) {
   }
 }
 
-/// Ends the level's pause, if so chosen, and releases the axes that it held unless another level still holds
-/// them.
+/// Ends the pause of a level, if the choice requires this, and releases the axes that the level held unless
+/// another level still holds them.
 void Triggers::on_level_end(int channel, const lang::Trigger& trigger) {
   ProgramState& programs = known_.programs.state();
   const bool ends_its_pause = programs.paused && programs.paused_by == channel &&
@@ -154,7 +155,7 @@ void Triggers::repeat_levels() {
   }
 }
 
-/// Returns true unless a download, the emergency state, a reset, an MP or a pause prevents it.
+/// Returns true unless a download, the emergency state, a reset, an MP or a pause prevents a start.
 bool Triggers::may_start() const {
   const Programs& programs = known_.programs;
   return !programs.is_downloading() && !known_.drives.state().emergency_state &&

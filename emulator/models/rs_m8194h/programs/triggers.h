@@ -1,4 +1,4 @@
-// RS-M8194H: triggers: FRnet inputs that start macros and events without a host (10, 5.4).
+// RS-M8194H: triggers. FRnet inputs start macros and events without a host (10, 5.4).
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@
 namespace understudy::emulator::models::rs_m8194h {
 
 struct TriggerState {
-  std::vector<std::uint8_t> queued_triggers{};  // channels whose MP is waiting for its turn
+  std::vector<std::uint8_t> queued_triggers{};  // channels whose MP is waiting
 
   bool operator==(const TriggerState&) const = default;
 };
@@ -38,17 +38,17 @@ class Triggers final : public Part {
       : Part(ground), state_(state), known_(known) {}
 
   void reset() { state_ = {}; }
-  /// Handles the scan of inputs that were `before`. If so chosen, check_at_start() also counts levels that
-  /// are already present.
+  /// Handles a scan; the inputs were `before` until then. check_at_start() also counts levels that are
+  /// already present, if the choice says so.
   void check(const FrnetWords& before);
   void check_at_start();
-  /// Handles a write to holding 9.
+  /// Handles a write to holding register 9.
   void enable(bool on);
-  /// Forgets that the level of a channel holds an axis, because the channel has another trigger now.
+  /// Called when the channel has another trigger: its level no longer holds an axis.
   void replaced(int channel);
   /// Starts the MP of the first waiting channel, if it may start now.
   void start_queued();
-  /// Returns true if no MP is waiting, and no level is about to call its MP again.
+  /// Returns true if no MP is waiting, and no level will call its MP again.
   bool rests() const { return state_.queued_triggers.empty() && !a_level_calls_again(); }
 
  private:
@@ -59,8 +59,7 @@ class Triggers final : public Part {
   void hold(int channel, const lang::Trigger& trigger);
   void abort_command();
   void pause(int channel);
-  /// Returns true if, under the chosen option, the level of a channel is still present and calls its MP
-  /// again.
+  /// Returns true if the level of a channel is still present and, because of a choice, calls its MP again.
   bool calls_again(int channel) const;
   bool a_level_calls_again() const;
   void repeat_levels();

@@ -1,5 +1,5 @@
-// RS-M8194H: the settings of an axis. The Initial Table holds the basic settings; all others have their
-// power-up values until a command sets them.
+// RS-M8194H: the settings of an axis. The Initial Table contains the basic settings; all other settings have
+// their power-up values until a command sets them.
 #pragma once
 
 #include <algorithm>
@@ -22,7 +22,7 @@ inline constexpr AxisMask kAllAxes = 0xF;
 constexpr bool has(AxisMask mask, std::size_t axis) { return (mask >> axis & 1) != 0; }
 constexpr AxisMask mask_of(std::size_t axis) { return static_cast<AxisMask>(1U << axis); }
 
-/// Settings of sections 3.3 to 3.16, with the factory values of section 8.
+/// The settings of sections 3.3 to 3.16, with the factory values of section 8.
 struct BasicSettings {
   std::uint8_t pulse_mode = 0;
   std::uint32_t max_v = 200'000;  // as sent
@@ -52,7 +52,7 @@ struct BasicSettings {
   bool operator==(const BasicSettings&) const = default;
 };
 
-/// The rules for speeds that the manual leaves open (choices.h).
+/// Rules about speeds that the manual leaves open (choices.h).
 struct SpeedRules {
   bool rounds_to_nearest = false;
   bool has_offset = true;            // AO
@@ -60,7 +60,7 @@ struct SpeedRules {
   double min_jerk_part = 0.0119211;  // the minimum jerk, as a fraction of MAX_V
 };
 
-/// The rules for an axis that the manual leaves open (choices.h).
+/// Rules about an axis that the manual leaves open (choices.h).
 struct AxisOptions {
   motion::Reaction at_soft_limit = motion::Reaction::slow_down;
   motion::Reaction at_alarm = motion::Reaction::stop_at_once;  // also for the EMG input
@@ -72,7 +72,7 @@ struct AxisOptions {
   bool comparisons_fire_when_armed = false;
 };
 
-/// The size of one speed count and the minimum and maximum of other quantities, for a MAX_V (3.4, 7.1).
+/// The size of a speed count, and the minimum and maximum of other quantities, for a MAX_V (3.4, 7.1).
 struct SpeedRange {
   SpeedRules rules = {};
   std::uint32_t max_v = 0;
@@ -94,10 +94,10 @@ inline SpeedRange speed_range(std::uint32_t max_v_as_sent, const SpeedRules& rul
           .min_jerk = max_v * rules.min_jerk_part};
 }
 
-/// The speed of an axis, or of the path (7.1.1 to 7.1.8, 7.2.3 to 7.2.9), as it was sent. 0 means that it was
-/// never set; the axis then uses the minimum value.
+/// The speed settings of an axis or of the path (7.1.1 to 7.1.8, 7.2.3 to 7.2.9), as sent. 0 means that the
+/// value was never set; the axis then uses the minimum.
 struct SpeedSettings {
-  std::uint8_t mode = 0;  // NORMAL_SPEED; for the path VECTOR_SPEED
+  std::uint8_t mode = 0;  // NORMAL_SPEED; for the path, VECTOR_SPEED
   std::uint32_t start_pps = 0;
   std::uint32_t drive_pps = 0;
   std::uint32_t acceleration = 0;
@@ -115,15 +115,15 @@ struct Shape {
   bool s_curve = false;
   bool unlike_ramps = false;
 };
-/// The shapes of NORMAL_SPEED 0 to 3.
+/// The shapes for NORMAL_SPEED 0 to 3.
 inline constexpr std::array<Shape, 4> kNormalShapes{
     {{}, {.s_curve = true}, {.unlike_ramps = true}, {.s_curve = true, .unlike_ramps = true}}};
 
-/// Returns the law of a drive at `drive_pps`, with ranges applied and speeds in whole counts.
+/// Returns the law of a drive at `drive_pps`, with the ranges applied and speeds rounded to whole counts.
 motion::SpeedLaw law_of(const SpeedSettings& speed, std::uint32_t drive_pps, const SpeedRange& range,
                         const Shape& shape, bool avoids_triangles);
 
-/// Settings of sections 6.1 to 6.3.
+/// The settings of sections 6.1 to 6.3.
 struct HomeSettings {
   std::uint32_t home_pps = 0;  // HV
   bool limit_is_home = false;

@@ -1,4 +1,4 @@
-// Short names of the confidence levels of a choice, for the rows of RS-M8194H.
+// Short names for the confidence levels of choices, for the rows of RS-M8194H.
 #pragma once
 
 #include "base/choices.h"

@@ -31,7 +31,7 @@ inline constexpr auto kChoices = [] {
   return all;
 }();
 
-/// The place of the language's rows in the table.
+/// The position of the language's rows in the table.
 inline constexpr std::size_t kFirstOfLanguage = 0;
 
 }  // namespace understudy::emulator::models::rs_m8194h

@@ -1,4 +1,4 @@
-// RS-M8194H's choices about macros, their downloads, and interrupts that call them.
+// RS-M8194H's choices about macros, their downloads, and the interrupts that call them.
 #pragma once
 
 #include "emulator/models/rs_m8194h/rows/choice_words.h"

@@ -1,5 +1,5 @@
-// RS-M8194H: the part that every other part may use. Parts (module.h) may use only the parts below them; this
-// file is below all of them.
+// RS-M8194H: what all parts use. Parts (module.h) may use only the parts below them, and this file is below
+// all of them.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@ struct Ground {
   const MachineOptions machine;
 };
 
-/// The base of a part: choices, the clock and the terminals, by short names.
+/// The base of a part, with short names for the choices, the clock and the terminals.
 class Part {
  public:
   bool chose(const Option& option) const { return ground_.device.chose(option); }

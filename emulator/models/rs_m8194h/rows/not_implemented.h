@@ -35,7 +35,7 @@ inline constexpr std::string_view kWhyNoLongHelix =
     "arcs are limited to 1,000,000 rad; such a helix is void, with the module's error (RINT bit 7)";
 
 constexpr bool is_meant(const NotImplementedRow& row, const interpreter::rs_m8194h::Command& command) {
-  // A filter that is set for no input delays nothing.
+  // A filter that is not set for any input does not delay anything.
   const bool is_used = row.verb != interpreter::rs_m8194h::Verb::set_filter || command.values[1] != 0;
   return row.verb == command.verb() && is_used && command.values[row.parameter] < row.min;
 }

@@ -1,5 +1,5 @@
-// RS-M8194H: the code looks up the options of choices.h with this. Options that every tick or every line of a
-// macro needs are looked up once, when the device is made.
+// RS-M8194H: looks up the options of choices.h. Options that every tick or every macro line needs are looked
+// up once, when the device is created.
 #pragma once
 
 #include <string_view>
@@ -16,7 +16,7 @@ consteval Option option(std::string_view id, std::string_view name) { return opt
 
 /// The options for commands, downloads and macros.
 struct LanguageOptions {
-  interpreter::rs_m8194h::Options lines = {};  // of the language's own code
+  interpreter::rs_m8194h::Options lines = {};  // of the language itself
   int steps_a_tick = 8;
   int isr_delay_ticks = 1;
   bool isrs_go_by_factor = false;
@@ -34,7 +34,7 @@ interpreter::rs_m8194h::Options options_of_language(const AskedOptions& asked);
 struct MachineOptions {
   AxisOptions axis = {};
   SpeedRules speed = {};
-  bool emergency_while_off = false;  // the EMG input
+  bool emergency_while_off = false;  // for the EMG input
   bool in3_rises_when_it_closes = false;
   bool filters_delay = true;
   bool frnet_every_tick = false;

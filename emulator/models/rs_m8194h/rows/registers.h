@@ -1,6 +1,5 @@
-// RS-M8194H: the four tables of registers, in the order of the manual's chapter 12, with the registers that
-// the chapter leaves out (inputs 87, 92 to 96, bVAR, MD, U's signals). Addresses are those on the wire, from
-// 0.
+// RS-M8194H: the four register tables, in the order of the manual's chapter 12, including the registers that
+// the chapter omits (inputs 87, 92 to 96, bVAR, MD, U's signals). Addresses count from 0, as on the line.
 #pragma once
 
 #include <array>
@@ -29,13 +28,13 @@ inline constexpr Value kMaxPosition = 2'000'000'000;
 inline constexpr int kWindowWords = 101;
 inline constexpr std::uint16_t kWindow = 8000;
 
-// What writes can do. A macro can do everything that its commands do.
+// What writes can do. A macro can do everything that its commands can do.
 inline constexpr Hazards kValue = Hazards::settings;
 inline constexpr Hazards kMotion = Hazards::motion;
 inline constexpr Hazards kMacro = Hazards::memory | Hazards::output | Hazards::motion;
 inline constexpr Hazards kNetwork = Hazards::memory | Hazards::stops_answering;
 
-/// Returns the rows with the name of their section.
+/// Returns the rows, after setting their section.
 template <std::size_t N>
 constexpr std::array<RegisterRow, N> section(std::string_view name, Hazards hazards,
                                              const RegisterRow (&rows)[N]) {
@@ -46,7 +45,7 @@ constexpr std::array<RegisterRow, N> section(std::string_view name, Hazards haza
   }
   return named;
 }
-/// A section whose registers are read-only, or have individual marks.
+/// A section whose registers are read-only or have individual marks.
 template <std::size_t N>
 consteval std::array<RegisterRow, N> section(std::string_view name, const RegisterRow (&rows)[N]) {
   return section(name, Hazards::unmarked, rows);
@@ -242,8 +241,8 @@ inline constexpr auto kDiscreteRows2 = section("12.5.2", {
     discrete(136, "{} INPOS").means("in-position signal of axis {}", "{} 軸的 INPOS 狀態").each(kAxisNames, 16).shows<di_all_bit, Varies::in_ticks>(8),
     discrete(137, "{} INDEX (IN2)").means("index pulse of axis {}", "{} 軸的 Z 相(IN2)狀態").each(kAxisNames, 16).shows<di_all_bit, Varies::in_ticks>(9),
 });
-// The manual prints LIMIT+, LIMIT-, ALARM and EMERGENCY twice: these are the bits of the error code. Bit 9 of
-// the error code is not in the printed table of discrete inputs.
+// The manual prints LIMIT+, LIMIT-, ALARM and EMERGENCY twice. These are the bits of the error code. Bit 9 of
+// the error code is missing from the printed table of discrete inputs.
 inline constexpr auto kDiscreteRows3 = section("12.5.3", {
     discrete(192, "{} SOFT LIMIT+").means("the positive soft limit has stopped axis {}", "{} 軸的正方向軟體極限被觸發").each(kAxisNames, 16).shows<error_bit, Varies::in_ticks>(0),
     discrete(193, "{} SOFT LIMIT-").means("the negative soft limit has stopped axis {}", "{} 軸的反方向軟體極限被觸發").each(kAxisNames, 16).shows<error_bit, Varies::in_ticks>(1),
@@ -256,8 +255,8 @@ inline constexpr auto kDiscreteRows3 = section("12.5.3", {
     discrete(200, "{} Stop Command").means("a stop command has stopped axis {}", "{} 軸執行停止運動指令").each(kAxisNames, 16).shows<error_bit, Varies::in_ticks>(8),
     discrete(201, "{} SOFT EMG").means("an emergency stop by command has stopped axis {}", "{} 軸停止原因: 軟體緊急停止").each(kAxisNames, 16).shows<error_bit, Varies::in_ticks>(9),
 });
-// U's bits are printed at 380, while the pattern of the other axes gives 280; they are at both addresses. The
-// argument distinguishes them: from 8 on it means 280, and from 16 on 380.
+// The manual prints U's bits at 380, whereas the pattern of the other axes suggests 280; they are at both
+// addresses. The argument distinguishes them: from 8 on it means 280, and from 16 on 380.
 inline constexpr auto kDiscreteRows4 = section("12.5.4", {
     discrete(256, "{} Near Home (IN0)").means("near-home switch of axis {}", "{} 軸的 NHOME(IN0)訊號狀態").each(kFirstThreeAxes, 8).shows<di_signal_bit, Varies::in_ticks>(0),
     discrete(257, "{} Home (IN1)").means("home switch of axis {}", "{} 軸的 HOME(IN1)訊號狀態").each(kFirstThreeAxes, 8).shows<di_signal_bit, Varies::in_ticks>(1),
@@ -295,7 +294,7 @@ inline constexpr auto kRegisters =
 
 static_assert(are_marked(kRegisters), "a register does not say what a write can do");
 
-/// Return the number of slots of the image, and the first slot of a row.
+/// Return the number of slots in the image, and the first slot of a row.
 consteval std::size_t slot_count() {
   std::size_t count = 0;
   for (const RegisterRow& row : kRegisters) count += row.is_view ? 0 : static_cast<std::size_t>(row.count);
@@ -303,7 +302,7 @@ consteval std::size_t slot_count() {
 }
 inline constexpr std::size_t kSlotCount = slot_count();
 
-/// Returns the row of this name in the manual.
+/// Returns the row with this name in the manual.
 consteval const RegisterRow& row_called(Table table, std::string_view name) {
   for (const RegisterRow& row : kRegisters) {
     if (row.table == table && row.name == name) return row;
@@ -321,7 +320,7 @@ consteval std::size_t slot(std::string_view holding_name) {
   throw "no register is stored there";
 }
 
-/// Consecutive addresses: those of one row, or all from one row to another.
+/// Consecutive addresses: those of one row, or from one row to another.
 struct Addresses {
   Table table;
   std::size_t first;
@@ -350,7 +349,7 @@ inline constexpr std::size_t kFirstVarSlot = slot("VAR{}");
 inline constexpr std::size_t kFirstMdSlot = slot("MD{}");
 inline constexpr std::size_t kCallMpAddress = row_called(Table::holding, "CALL_MPn").address;
 inline constexpr Addresses kVarAddresses = addresses_of(Table::holding, "VAR{}");
-/// The addresses whose writes go through the FIFO as commands.
+/// The addresses to which writes go through the FIFO as commands.
 inline constexpr Addresses kCounterAddresses =
     addresses_of(Table::holding, "Absolute Position {}", "Encoder Position {}");
 inline constexpr Addresses kFrnetWords = addresses_of(Table::holding, "FRnet DO group {}");

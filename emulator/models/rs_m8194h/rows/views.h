@@ -1,4 +1,4 @@
-// RS-M8194H: readers and writers of its registers (registers.h names them).
+// RS-M8194H: readers and writers of its registers (registers.h refers to them).
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@ namespace understudy::emulator::models::rs_m8194h {
 
 class Module;
 
-// --- FRnet: words by Cell::index, bits of the group that is the row's argument
+// --- FRnet: words by Cell::index, bits of the group in the row's argument
 Value do_word(const Module& it, Cell cell);
 Value di_word(const Module& it, Cell cell);
 Value do_bit(const Module& it, Cell cell);
@@ -19,7 +19,7 @@ Value di_bit(const Module& it, Cell cell);
 void write_do_word(Module& it, Cell cell, Value value);
 void write_do_bit(Module& it, Cell cell, Value value);
 
-// --- of each axis; the row's argument selects a single bit
+// --- for each axis; the row's argument selects a single bit
 Value di_all(const Module& it, Cell cell);
 Value di_all_bit(const Module& it, Cell cell);
 Value error_code(const Module& it, Cell cell);
@@ -39,7 +39,7 @@ void queue_logic_position(Module& it, Cell cell, Value value);
 void queue_encoder_position(Module& it, Cell cell, Value value);
 void queue_absolute_position(Module& it, Cell cell, Value value);
 
-// --- of the whole controller
+// --- for the whole controller
 Value running_mp(const Module& it, Cell cell);
 Value emergency_state(const Module& it, Cell cell);
 Value error_state(const Module& it, Cell cell);
@@ -54,9 +54,9 @@ Value driving_axes(const Module& it, Cell cell);
 Value rsm_state(const Module& it, Cell cell);
 Value module_state(const Module& it, Cell cell);
 Value illegal_reason(const Module& it, Cell cell);
-Value download_field(const Module& it, Cell cell);   // argument of the row: which of the five fields
-Value execution_field(const Module& it, Cell cell);  // argument of the row: which of the five fields
-Value factor_axes(const Module& it, Cell cell);      // argument of the row: which factor
+Value download_field(const Module& it, Cell cell);   // the row's argument selects one of five fields
+Value execution_field(const Module& it, Cell cell);  // the row's argument selects one of five fields
+Value factor_axes(const Module& it, Cell cell);      // the row's argument selects the factor
 Value call_register(const Module& it, Cell cell);
 void call_mp(Module& it, Cell cell, Value value);
 void enable_triggers(Module& it, Cell cell, Value value);

@@ -1,4 +1,4 @@
-// Sets the inputs of a chain, and answers questions about its state.
+// Sets the inputs of a chain, and answers queries about its state.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>

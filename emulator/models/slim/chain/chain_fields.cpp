@@ -1,4 +1,4 @@
-// Refuses a restored chain whose ticks could index beyond a table or never end.
+// Refuses a restored chain with which ticks could index beyond a table or run forever.
 #include "emulator/models/slim/chain/chain_fields.h"
 
 #include <cmath>
@@ -23,7 +23,7 @@ void require_coordinate(double units) {
   require_state(std::abs(units) <= 1e16, "a coordinate is out of range");
 }
 
-// Also used for accelerations; each has its own unit.
+// Also used for accelerations; each quantity has its own unit.
 void require_speed(double value) {
   require_state(value >= kMinSpeed && value <= kMaxSpeed, "a speed is out of range");
 }

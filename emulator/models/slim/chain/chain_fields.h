@@ -1,4 +1,4 @@
-// The fields of a chain's state (base/state/fields.h), in the order of the bytes.
+// The fields of a chain's state (base/state/fields.h), in the order of the saved bytes.
 #pragma once
 
 #include "base/state/fields.h"
@@ -104,7 +104,7 @@ struct StateOf<emulator::models::slim::Job> {
   static void check(const Value& job);
 };
 
-/// Writes only the items that are in the FIFO.
+/// Saves only the items that are in the FIFO.
 template <>
 struct StateOf<
     emulator::models::slim::Fifo<emulator::models::slim::Job, emulator::models::slim::kFifoLength>> {
@@ -136,7 +136,7 @@ struct StateOf<emulator::models::slim::Group> {
   using Value = emulator::models::slim::Group;
   static constexpr auto fields =
       FieldList{field<&Value::motion>(), field<&Value::paths>(), field<&Value::end>()};
-  // Writes the group only if it is in use.
+  // Saves the group only if it is in use.
   static void write(const Value& group, StateWriter& writer);
   static void read(Value& group, StateReader& reader);
 };

@@ -1,9 +1,9 @@
-// The state of a chain: its modules, which of them has which letter, coordinated motions, and pauses. Each
-// part of the chain is a header with its functions on this state, and uses only those above it in this list:
+// The state of a chain: its modules, the assigned letters, coordinated motions, and pauses. Each part of the
+// chain is a header with functions on this state, and uses only the parts above it in this list:
 //
 //   chain_state.h   modules held by a pause, modules on a path; jobs that are dropped from all FIFOs
 //   paths.h         coordinated motion
-//   queues.h        the FIFOs: what is added, and what starts when
+//   queues.h        the FIFOs: adding commands, and starting them
 //   stops.h         pauses, what ends them, stops
 //   refusals.h      why a command is refused
 //   settings.h      VM, VJ, PR2 ...
@@ -35,10 +35,10 @@ inline constexpr int kMappable = 6;
 
 constexpr std::size_t at(int module) { return static_cast<std::size_t>(module); }
 
-/// A coordinated motion. Its paths are the heads of its modules' FIFOs, one after another.
+/// A coordinated motion. Its paths are the first jobs in its modules' FIFOs, one after another.
 struct Group {
   motion::Coordinated motion;
-  std::uint8_t paths = 0;                     // how many of the FIFOs' heads are its paths
+  std::uint8_t paths = 0;                     // how many of the first jobs in the FIFOs are its paths
   motion::Point end = motion::Point::Zero();  // end of the last path
 
   bool operator==(const Group&) const = default;
@@ -63,10 +63,10 @@ struct ChainState {
     return {modules[at(module)], axes[at(module)], environment[at(module)], options, now};
   }
 
-  /// Returns true if PZ applies to the module, or to a module of the group.
+  /// Returns true if PZ applies to the module, or to a module in the group.
   bool in_pause_scope(int module) const { return module == 0 || !options.chose(option("pause_scope", "t0")); }
   bool in_pause_scope(const Group& group) const;
-  /// Returns the pauses of a module or a group: TAPZ, and PZ within its scope.
+  /// Returns the pauses that apply to a module or a group: TAPZ, and PZ within its scope.
   Pauses pauses_of(const auto& what) const {
     return slim::pauses_of(queues_paused && in_pause_scope(what), paused);
   }
@@ -79,9 +79,9 @@ struct ChainState {
 
 /// Drops a job from all FIFOs.
 void drop_job(ChainState& chain, std::uint64_t number);
-/// Drops the job at the head of the module's FIFO from all FIFOs, and gives the module the error.
+/// Drops the job at the head of the module's FIFO from all FIFOs, and records the error for the module.
 void drop_head(ChainState& chain, int module, Error why);
-/// Drops all jobs in the module's FIFO after the first `kept`, from all FIFOs.
+/// Drops all jobs in the module's FIFO, except the first `kept`, from all FIFOs.
 void forget_queue(ChainState& chain, int module, std::size_t kept = 0);
 
 }  // namespace understudy::emulator::models::slim

@@ -1,4 +1,4 @@
-// Commands of one module.
+// Commands for one module.
 #include <cstddef>
 #include <cstdint>
 
@@ -35,7 +35,7 @@ Error enqueue_move(ChainState& chain, int module, bool absolute, double units) {
   return mine.reaches(job.ends[0]) ? enqueue(chain, job) : Error::range;
 }
 
-/// Orders a jog in `direction`, or thrust if that is 0. If so chosen, it replaces a move.
+/// Requests a jog in `direction`, or thrust if `direction` is 0. A choice can make it replace a move.
 Error replace_jog(ChainState& chain, int module, int direction, std::int32_t force) {
   if (const Error why = refusal_of_jog(chain, module); why != Error::none) return why;
   const bool gives_up = !chain.modules[at(module)].jogs_or_pushes();
@@ -44,7 +44,7 @@ Error replace_jog(ChainState& chain, int module, int direction, std::int32_t for
     forget_queue(chain, module);
   }
   order_jog(chain.motor(module), direction, force);
-  if (gives_up) serve(chain, chain.now + 1);  // starts commands that waited in other FIFOs for a dropped one
+  if (gives_up) serve(chain, chain.now + 1);  // starts commands that waited behind dropped ones
   return Error::none;
 }
 

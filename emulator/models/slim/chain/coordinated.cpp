@@ -1,4 +1,4 @@
-// Commands of several modules together.
+// Commands that involve several modules.
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -36,10 +36,10 @@ int Chain::assigned(Letter letter) const {
 
 namespace {
 
-/// Enqueues a job with the settings that are in effect now.
+/// Enqueues a job with the present settings.
 Error enqueue_coordinated(ChainState& chain, Job job) {
   motion::Point begin = motion::Point::Zero();
-  bool begin_is_known = true;  // while a jog runs, the beginning is a guess
+  bool begin_is_known = true;  // during a jog, the beginning is a guess
   const ModuleSettings& first = chain.modules[at(job.module_of[0])].settings;
   for (std::size_t i = 0; i < job.module_of.size(); ++i) {
     const int module = job.module_of[i];

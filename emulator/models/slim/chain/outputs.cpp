@@ -1,4 +1,4 @@
-// Commands for the outputs of a module, queued and at once.
+// Commands for the outputs of a module, both queued and immediate.
 #include <cstddef>
 #include <cstdint>
 

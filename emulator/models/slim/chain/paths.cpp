@@ -89,8 +89,8 @@ void note_ends(ChainState& chain, const Job& job, std::size_t place, const motio
   }
 }
 
-/// Returns the path of a job from a place, or nothing if the path is impossible, too long, or (if so chosen)
-/// empty.
+/// Returns the path of a job that begins at a place, or nothing if the path is impossible, too long, or
+/// (depending on a choice) empty.
 std::optional<motion::Path> path_from(const ChainState& chain, const Job& job, const motion::Point& begin) {
   try {
     const motion::Path path = path_of(job, begin);
@@ -101,7 +101,7 @@ std::optional<motion::Path> path_from(const ChainState& chain, const Job& job, c
   return std::nullopt;
 }
 
-/// Completes a path without length at once.
+/// Completes a path without length immediately.
 void finish_empty(ChainState& chain, const Job& job, const motion::Point& end) {
   for (std::size_t i = 0; i < job.module_of.size(); ++i) {
     if (job.module_of[i] < 0) continue;
@@ -178,19 +178,19 @@ bool start_group(ChainState& chain, int module, Tick begin_at) {
 
 void extend_group(ChainState& chain, Group& group) {
   if (group.paths == 0 || group.motion.slowing_for != motion::Cause::none) return;
-  const auto& fifo = chain.modules[at(group.motion.axis_of[0])].fifo;  // X is in every group
+  const auto& fifo = chain.modules[at(group.motion.axis_of[0])].fifo;  // every group contains X
   while (fifo.size() > group.paths && !group.motion.run.full()) {
     const Job next = fifo[group.paths];
     if (!next.coordinated() || !at_all_places(chain, next, group.paths)) return;
     Job before = fifo[group.paths - 1U];
-    // The acceleration can change only at rest, and so can the parameter that gives the speed.
+    // The acceleration can change only at rest, and so can the parameter that determines the speed.
     if (before.path_acceleration_units_s2 != next.path_acceleration_units_s2) return;
     if (chain.options.chose(option("joint", "second_command_decides"))) before.continuous = next.continuous;
     const motion::Joint joint = joint_between(before, next);
     if (joint.rule == motion::Joint::Rule::stop) return;
     if (goes_by_line_speed(chain.options, before) != goes_by_line_speed(chain.options, next)) return;
     const std::optional<motion::Path> path = path_from(chain, next, group.end);
-    if (!path) return;  // refused when its turn comes
+    if (!path) return;  // it will be refused when it reaches the head
     note_ends(chain, next, group.paths, path->end);
     group.motion.run.append(*path, joint, chain.now);
     group.end = path->end;

@@ -44,7 +44,7 @@ Error refusal_of_jog(const ChainState& chain, int module) {
   const Module& mine = chain.modules[at(module)];
   if (!mine.busy() || mine.jogs_or_pushes()) return Error::none;
   if (!chain.options.chose(option("jog_while_moving", "ends_the_move"))) return Error::not_allowed;
-  // An HON that is still waiting would be given up too.
+  // An HON that is still waiting would also be dropped.
   return chain.axes[at(module)].servo_on ? Error::none : Error::servo_off;
 }
 

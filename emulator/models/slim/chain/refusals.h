@@ -1,4 +1,4 @@
-// Finds why a command is refused, before anything has changed.
+// Determines why a command is refused, before anything has changed.
 #pragma once
 
 #include "emulator/models/slim/chain/chain_state.h"
@@ -7,9 +7,9 @@
 
 namespace understudy::emulator::models::slim {
 
-/// Returns the refusal that applies to every command: not_linked.
+/// Returns the refusal that applies to all commands: not_linked.
 Error refusal(const ChainState& chain, int module);
-/// Return why a motion of a module, given by its letter or by its number, is refused.
+/// These return why a motion of a module, given by its letter or its number, is refused.
 Error refusal_of_motion(const ChainState& chain, int module, InPause what = InPause::motion);
 Error refusal_by_number(const ChainState& chain, int module, InPause what = InPause::motion);
 /// Returns why a homing is refused.

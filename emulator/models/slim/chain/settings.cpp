@@ -18,7 +18,7 @@ namespace understudy::emulator::models::slim {
 
 namespace {
 
-// Also used for accelerations; each has its own unit.
+// Also used for accelerations; each quantity has its own unit.
 bool plannable(double value) { return value >= kMinSpeed && value <= kMaxSpeed; }
 
 }  // namespace
@@ -62,7 +62,7 @@ Error ChainSettings::set_working_speed(int module, double rpm_or_rps) {
   mine.settings.working_speed = rpm_or_rps;
   mine.analog_speed = false;
   if (mine.starved || chain_.options.new_speed_counts_at_once()) refresh_speed(chain_, module);
-  serve(chain_, chain_.now + 1);  // a move may have waited for AVM's voltage
+  serve(chain_, chain_.now + 1);  // a move may have been waiting for AVM's voltage
   return Error::none;
 }
 
@@ -71,7 +71,7 @@ Error ChainSettings::set_jog_speed(int module, double rpm_or_rps) {
   Module& mine = chain_.modules[at(module)];
   const bool same_sense = rpm_or_rps * mine.settings.jog_speed > 0;
   mine.settings.jog_speed = rpm_or_rps;
-  // A jog that must reverse or stop counts as a new one.
+  // A jog that must reverse or stop counts as a new jog.
   const bool counts_at_once = same_sense && chain_.options.new_speed_counts_at_once();
   if (mine.activity == Activity::jog && counts_at_once) refresh_speed(chain_, module);
   return Error::none;

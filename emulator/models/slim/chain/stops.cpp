@@ -28,7 +28,7 @@ void hold(ChainState& chain) {
   for (int module = 0; module < kModules; ++module) {
     if (chain.held(module)) hold_motion(chain.motor(module));
   }
-  serve(chain, chain.now + 1);  // starts outputs that waited for a jog's end
+  serve(chain, chain.now + 1);  // starts outputs that were waiting for the end of a jog
 }
 
 void release(ChainState& chain) {
@@ -43,7 +43,7 @@ void release(ChainState& chain) {
   serve(chain, chain.now + 1);
 }
 
-/// Discards what PZ holds, or everything.
+/// Discards everything, or only what PZ holds.
 void give_up(ChainState& chain, bool in_scope_only) {
   const auto is_meant = [&](int module) { return !in_scope_only || chain.in_pause_scope(module); };
   for (int module = 0; module < kModules; ++module) {
@@ -54,7 +54,7 @@ void give_up(ChainState& chain, bool in_scope_only) {
   for (int module = 0; module < kModules; ++module) {
     if (is_meant(module)) forget_queue(chain, module);
   }
-  serve(chain, chain.now + 1);  // starts commands that waited in other FIFOs for a dropped one
+  serve(chain, chain.now + 1);  // starts commands that were waiting behind a dropped one in other FIFOs
 }
 
 /// Discards waiting commands, but not those in progress.

@@ -1,4 +1,4 @@
-// Pausing, continuing, discarding and stopping a whole chain, by the table in rules/pauses.h.
+// Pausing, continuing, discarding and stopping a whole chain, according to the table in rules/pauses.h.
 #pragma once
 
 #include "emulator/models/slim/chain/chain_state.h"
@@ -7,7 +7,8 @@
 
 namespace understudy::emulator::models::slim {
 
-/// Executes PZ, REDO, CLR BUF, TAPZ, TAREDO, TAUPZ, TASTOP, and the effect of a RESET of T0 on pauses.
+/// Executes PZ, REDO, CLR BUF, TAPZ, TAREDO, TAUPZ and TASTOP, and applies the effect of T0's RESET on
+/// pauses.
 Error steer(ChainState& chain, InPause what);
 
 }  // namespace understudy::emulator::models::slim

@@ -1,4 +1,4 @@
-// Runs the ticks of the chain, and finds those that can be skipped.
+// Runs the ticks of the chain, and determines which ticks can be skipped.
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -26,7 +26,7 @@ namespace {
 
 using Pulses = std::array<std::int64_t, kModules>;
 
-/// Switches outputs at their positions, in the order in which the axes pass these.
+/// Switches outputs at their positions, in the order in which the axes pass the positions.
 class TriggerOwner final : public motion::EdgeOwner {
  public:
   explicit TriggerOwner(ChainState& chain) : chain_(chain) {}
@@ -57,7 +57,7 @@ void step_groups(ChainState& chain) {
   }
 }
 
-/// Returns true if the axis met nothing in the last tick, and nothing has changed for it since.
+/// Returns true if the axis encountered nothing in the last tick, and nothing has changed for it since.
 bool is_undisturbed(const ChainState& chain, int module) {
   const motion::Axis& axis = chain.axes[at(module)];
   return axis.events == 0 && !axis.must_recheck && chain.environment[at(module)].version == axis.seen_version;
@@ -76,7 +76,7 @@ void step_axes(ChainState& chain) {
   }
 }
 
-/// Returns true if nothing happens to the module by itself, apart from its axis or group.
+/// Returns true if nothing happens to the module except through its axis or group.
 bool waits(const ChainState& chain, int module) {
   const Module& mine = chain.modules[at(module)];
   const motion::Axis& axis = chain.axes[at(module)];
@@ -87,7 +87,7 @@ bool waits(const ChainState& chain, int module) {
 /// Returns true if the group is not engaged, or paused and at rest.
 bool stands(const Group& group, Tick done) {
   const motion::PathRun& run = group.motion.run;
-  // Completions belong to the last tick only.
+  // Completed paths count only for the last tick.
   return !group.motion.engaged || (run.paused() && run.at_rest(done) && run.completed() == 0 &&
                                    group.motion.slowing_for == motion::Cause::none);
 }
@@ -103,7 +103,7 @@ void Chain::step(Tick tick) {
   state_.now = tick;
   step_groups(state_);
   step_axes(state_);
-  // Groups are released only now, so that their modules had one tick each.
+  // Groups are released only now, so that their modules have had one tick each.
   for (Group& group : state_.groups) {
     const bool was_running = group.motion.axis_of[0] >= 0;
     if (was_running && !group.motion.engaged) release_group(state_, group, tick);
@@ -121,7 +121,7 @@ Tick Chain::next_active_tick(Tick done) const {
   for (int module = 0; module < kModules; ++module) {
     const Module& mine = module_at(module);
     if (!waits(state_, module)) return done + 1;
-    // Events and pulses belong to the last tick only. A path may end without a pulse in its last tick.
+    // Events and pulses are those of the last tick only. A path may end without a pulse in its last tick.
     if (!is_undisturbed(state_, module) || mine.sent_pulses != 0) next = std::min(next, done + 1);
     for (const Output& output : mine.outputs) next = std::min(next, output.next_change(done));
   }

@@ -1,4 +1,4 @@
-// A first-in, first-out queue of fixed length: a value without pointers.
+// A first-in, first-out queue of fixed length. It is a value without pointers.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@ namespace understudy::emulator::models::slim {
 template <class T, std::size_t n>
 class Fifo {
  public:
-  /// Compares the items, regardless of where they lie in the array.
+  /// Compares the items, regardless of their positions in the array.
   bool operator==(const Fifo& other) const {
     if (count_ != other.count_) return false;
     for (std::size_t i = 0; i < count_; ++i) {
@@ -24,7 +24,7 @@ class Fifo {
   bool empty() const { return count_ == 0; }
   std::size_t size() const { return count_; }
 
-  /// `i` must be < size(); 0 is the head.
+  /// `i` must be < size(). 0 is the head.
   T& operator[](std::size_t i) { return items_[(head_ + i) % n]; }
   const T& operator[](std::size_t i) const { return items_[(head_ + i) % n]; }
 

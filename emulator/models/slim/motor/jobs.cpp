@@ -24,7 +24,7 @@ int Job::modules() const {
 
 namespace {
 
-/// Returns the sweep to the left in which the spiral grows from one radius to the other.
+/// Returns the left-hand sweep over which the spiral grows from one radius to the other.
 double sweep_to_radius(const Job& spiral, double begin_radius_units) {
   const double turns = (spiral.sweep_deg - begin_radius_units) / spiral.growth_units_turn;
   motion::require_not_negative(spiral.sweep_deg, "spiral", "its last radius");
@@ -58,7 +58,7 @@ motion::Path path_of(const Job& job, const motion::Point& begin) {
   }
   motion::Point rise = motion::Point::Zero();
   if (job.module_of[2] >= 0) rise[2] = job.units[2] - (job.height_absolute ? begin[2] : 0.0);
-  // The centre is the present position: nothing turns, and only the rise is left.
+  // The centre is the present position: nothing turns, and only the rise remains.
   if (there[0] == begin[0] && there[1] == begin[1]) return motion::line(begin, begin + rise);
   return motion::arc_by_sweep(begin, there, sweep_rad, rise);
 }

@@ -28,25 +28,26 @@ struct Job {
     output,
   };
   Kind kind = Kind::output;
-  // The same number in every FIFO that holds the job; 0: no job.
+  // The job has the same number in all its FIFOs; 0: no job.
   std::uint64_t number = 0;
-  // The modules that had the letters X, Y, Z, W when the job was issued. A job of one module has it at X.
+  // The modules to which the letters X, Y, Z, W were assigned when the job was issued. A job for one module
+  // has that module at X.
   std::array<std::int8_t, kLetters> module_of{kNoModule, kNoModule, kNoModule, kNoModule};
-  // In the user units of each module: targets or distances; for an arc its centre and, at Z, its height.
+  // Targets or distances, in the user units of each module. For an arc, the centre and, at Z, the height.
   std::array<double, kLetters> units{};
   bool absolute = true;
   bool height_absolute = true;  // for an arc: true if the height is absolute
   double sweep_deg = 0;
-  // `sweep_deg` is a radius: of an arc to `units`, turning left, or at the end of a spiral
+  // `sweep_deg` is a radius: that of an arc that turns left to `units`, or the final radius of a spiral.
   bool by_radius = false;
   double growth_units_turn = 0;
-  // The place at which the job leaves its modules: expected when issued, exact once it starts.
+  // Where the job leaves its modules: an estimate when it is issued, exact once it has started.
   std::array<double, kLetters> ends{};
   ContinuousPath continuous = ContinuousPath::off;
   double smooth_corner_deg = 0;           // PR7
   double path_acceleration_units_s2 = 0;  // PR2; 0: the value when the job starts
   bool servo_on = false;
-  bool begun = false;  // for a job of one module: its motion has begun
+  bool begun = false;  // for a job of one module: the motion has begun
   OutputOrder output{};
 
   bool operator==(const Job&) const = default;

@@ -32,7 +32,7 @@ namespace {
 void begin_thrust(const Motor& motor, std::int32_t force, Tick begin_at) {
   Module& module = motor.module;
   if (motor.options.thrust_runs()) begin_jog(motor, +1, begin_at);
-  // The motion also begins if its speed is 0.
+  // The motion begins even if its speed is 0.
   if (!motor.axis.moving()) motor.axis.move_at_zero_speed(+1);
   take_off(module, MarkEvent::begins);
   module.activity = Activity::thrust;
@@ -127,7 +127,7 @@ void after_jog(const Motor& motor, Tick begin_at) {
   const bool is_stopping = module.activity == Activity::stopping;
   if (motor.axis.moving() || !(is_stopping || module.jogs_or_pushes())) return;
   module.place_units = motor.coordinate();
-  if (module.activity == Activity::jog && module.starved) return;  // continues when AVM gives a speed
+  if (module.activity == Activity::jog && module.starved) return;  // continues when AVM specifies a speed
   take_off(module, MarkEvent::stands);
   begin_next_jog(motor, begin_at);
 }

@@ -1,5 +1,5 @@
-// Jogs and thrust of one module. They bypass the FIFO; a jog or thrust that is commanded during another
-// motion starts after it.
+// Jogs and thrust of one module. They bypass the FIFO. A jog or thrust that is commanded during another
+// motion starts after that motion.
 #pragma once
 
 #include <cstdint>
@@ -9,22 +9,23 @@
 
 namespace understudy::emulator::models::slim {
 
-/// Orders a jog in `direction`, or thrust if that is 0. It replaces a running one, or follows another motion.
+/// Requests a jog in `direction`, or thrust if `direction` is 0. It replaces a running jog or thrust, or
+/// follows another motion.
 void order_jog(const Motor& motor, int direction, std::int32_t force);
 void begin_jog(const Motor& motor, int direction, Tick begin_at);
-/// Begins the jog or thrust that has waited for the motor to stop, if there is one.
+/// Begins the jog or thrust that was waiting for the motor to stop, if any.
 void begin_next_jog(const Motor& motor, Tick begin_at);
-/// Slows down for JG0, and cancels the jog or thrust that was to follow.
+/// Slows down for JG0, and cancels the next jog or thrust.
 void stop_jog(const Motor& motor);
 
-/// Stops a jog or thrust for a pause. resume_jog() continues it, or the one that was to follow.
+/// Stops a jog or thrust for a pause. resume_jog() continues it, or starts the next one.
 void hold_jog(const Motor& motor);
 void resume_jog(const Motor& motor);
 
-/// Slows down from a move or homing that is abandoned.
+/// Slows down an abandoned move or homing.
 void slow_down_for_good(const Motor& motor);
 
-/// Does what the end of a jog, of thrust, or of slow_down_for_good() requires, if the axis is at rest.
+/// If the axis is at rest, performs what follows the end of a jog, a thrust or slow_down_for_good().
 void after_jog(const Motor& motor, Tick begin_at);
 
 }  // namespace understudy::emulator::models::slim

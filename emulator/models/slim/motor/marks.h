@@ -1,6 +1,6 @@
-// Marks of a module: what an activity sets for a later decision. Each mark has a row with the events that
-// clear it, and this table clears marks, except where a motion continues in another way: AVM has a speed
-// again (refresh_speed(), resume_motion()), VM ends AVM, and running thrust was a jog for a moment.
+// Marks of a module: what an activity sets for a later decision. The row of each mark contains the events
+// that clear it. Only this table clears marks, except where a motion continues in another way: AVM specifies
+// a speed again (refresh_speed(), resume_motion()), VM ends AVM, or running thrust briefly was a jog.
 // marks_test.cpp begins every activity, ends it in every possible way and checks all rows.
 #pragma once
 
@@ -15,12 +15,12 @@ namespace understudy::emulator::models::slim {
 
 enum class MarkEvent : std::uint8_t {
   begins,          // a motion of the module: MA, MR, H, JGF, JGR, FT
-  continues,       // JGF or JGR in the direction of the jog that runs
-  jogs_dropped,    // JG0, TAUPZ, CLR BUF in a pause, or a pause, before it sets its own marks
+  continues,       // JGF or JGR in the direction of the running jog
+  jogs_dropped,    // JG0, TAUPZ, CLR BUF in a pause, or a pause before it sets its own marks
   stop_requested,  // the motion has begun to decelerate, and then ends
-  stands,          // the motion has ended, or it is interrupted and starts again from the FIFO
+  stands,          // the motion has ended, or is interrupted and will start again from the FIFO
   pause_over,      // TAREDO, REDO
-  cut,             // TASTOP, IHOFF, HOFF, RESET, each at once
+  cut,             // TASTOP, IHOFF, HOFF or RESET, all of them immediately
   servo_off,       // IHOFF, HOFF, RESET; TASTOP if it switches the servo off
 };
 using MarkEvents = std::uint8_t;

@@ -16,10 +16,10 @@ namespace understudy::emulator::models::slim {
 
 namespace {
 
-/// Up to here a double holds every pulse, and every sum of two such positions.
+/// Up to this value, a double can represent every pulse, and every sum of two such positions.
 constexpr double kFarthest_pulses = 4'503'599'627'370'496.0;  // 2^52
 
-/// No module is this fast. At a higher speed, the pulses of a century of jogging could not be counted.
+/// No module is this fast. At a higher speed, a century of jogging would overflow the pulse count.
 constexpr double kFastest_pps = 1e9;
 
 double pulses_a_second(const ModuleSettings& settings, double rpm_or_rps) {
@@ -29,7 +29,7 @@ double pulses_a_second(const ModuleSettings& settings, double rpm_or_rps) {
 
 /// Returns PR2 as an acceleration, for the moves that use it instead of VA.
 double path_slope(const ModuleSettings& settings) {
-  constexpr double kSlowest_pps2 = 1e-8;  // the minimum of VA gives this, and a ramp must end
+  constexpr double kSlowest_pps2 = 1e-8;  // the minimum of VA corresponds to this, and a ramp must end
   return std::clamp(settings.path_acceleration_units_s2 * settings.scale.pulses_per_unit(), kSlowest_pps2,
                     kFastest_pps);
 }
@@ -45,7 +45,8 @@ motion::SpeedLaw trapezoid(const ModuleSettings& settings, double rpm_or_rps, co
 }  // namespace
 
 std::int64_t Module::pulses_of(double units) const {
-  // Calculates in the same order as coordinated motion, because both must give the same pulse.
+  // The order of calculation is the same as for coordinated motion, because both must result in the same
+  // pulse.
   const double pulses =
       units * static_cast<double>(settings.scale.multiplier) / static_cast<double>(settings.scale.divider);
   return std::llround(pulses);
@@ -57,7 +58,7 @@ double Module::units_of(std::int64_t pulses) const {
 }
 
 bool Module::reaches(double units) const {
-  // The limits of the path and of the pulses.
+  // The range limits of paths and pulses.
   constexpr double kFarthest_units = 1e12;
   return std::abs(units) <= kFarthest_units &&
          std::abs(units) * settings.scale.pulses_per_unit() <= kFarthest_pulses;

@@ -1,6 +1,6 @@
-// One module of the chain: a motor with its own units, speeds, outputs and FIFO. The axis itself and its
-// environment are stored with those of the other modules (chain/chain_state.h), because coordinated motion
-// works on arrays.
+// A module of the chain: a motor with its own units, speeds, outputs and FIFO. The axis itself and its
+// environment are stored together with those of the other modules (chain/chain_state.h), because coordinated
+// motion uses arrays.
 #pragma once
 
 #include <array>
@@ -21,20 +21,20 @@ inline constexpr int kModules = 8;
 inline constexpr int kOutputs = 4;
 inline constexpr std::size_t kFifoLength = 32;
 inline constexpr int kFullAnalog = 1000;
-/// Speeds and accelerations outside these limits occur on no machine, and may be impossible to plan. (The
+/// No machine has speeds or accelerations outside these limits, and they may be impossible to plan. (The
 /// lower limit is 1e-6 as a 32-bit real.)
 inline constexpr double kMinSpeed = 1e-6F;
 inline constexpr double kMaxSpeed = 1e9;
 
-/// FU: the unit of VM and VJ; VA is in this unit per second.
+/// FU: the unit of VM and VJ. VA is in this unit per second.
 enum class SpeedUnit : std::uint8_t { rpm = 0, rps = 1 };
 
 struct ModuleSettings {
-  motion::UnitScale scale{};  // PN45 pulses are PN46 user units
+  motion::UnitScale scale{};  // PN45 pulses = PN46 user units
   std::int32_t pulses_per_revolution = 10'000;
   SpeedUnit speed_unit = SpeedUnit::rpm;
   double working_speed = 1000;               // VM, > 0
-  double jog_speed = 100;                    // VJ; < 0 swaps JGF and JGR; 0: counts as moving, sends no pulse
+  double jog_speed = 100;                    // VJ; < 0 swaps JGF and JGR; 0: moves without pulses
   double acceleration = 10'000;              // VA, > 0
   double path_acceleration_units_s2 = 1000;  // PR2, > 0
   double path_speed_units_s = 100;           // PR3, > 0
@@ -44,15 +44,15 @@ struct ModuleSettings {
   bool operator==(const ModuleSettings&) const = default;
 };
 
-/// The activity of a module's axis.
+/// What a module's axis is doing.
 enum class Activity : std::uint8_t {
   idle,
-  move,  // the FIFO's head
-  home,  // the FIFO's head
+  move,  // the head of the FIFO
+  home,  // the head of the FIFO
   jog,
   thrust,
-  group,     // coordinated
-  stopping,  // slowing down from a discarded motion
+  group,     // coordinated motion
+  stopping,  // slowing down after its motion was discarded
 };
 
 struct Module {
@@ -60,19 +60,19 @@ struct Module {
   bool linked = false;
   bool homed = false;
   Activity activity = Activity::idle;
-  std::int8_t jog_direction = 0;       // direction of the running jog
-  std::int8_t next_jog_direction = 0;  // jog that begins when the running motion has stopped
-  std::int32_t next_thrust = 0;        // thrust that does the same
-  std::int8_t held_jog_direction = 0;  // jog that continues after the pause
-  std::int32_t held_thrust = 0;        // thrust that does the same
+  std::int8_t jog_direction = 0;       // the direction of the running jog
+  std::int8_t next_jog_direction = 0;  // the jog that begins when the running motion has stopped
+  std::int32_t next_thrust = 0;        // the thrust that begins then
+  std::int8_t held_jog_direction = 0;  // the jog that continues after the pause
+  std::int32_t held_thrust = 0;        // the thrust that continues then
   bool analog_speed = false;           // AVM
-  bool starved = false;                // slowed down because AVM gives no speed
+  bool starved = false;                // slowed down because AVM specifies no speed
   std::int16_t analog = 0;             // 0 .. kFullAnalog
-  std::int32_t thrust = 0;             // FT's operand while it pushes; otherwise 0
+  std::int32_t thrust = 0;             // FT's operand during thrust; otherwise 0
   std::int64_t zero_pulses = 0;        // travel at which the coordinate is 0
-  double place_units = 0;              // at rest: the commanded coordinate; travel is this, rounded to pulses
-  std::int64_t sent_pulses = 0;        // pulses of the last tick, as they are sent
-  Error late_error = Error::none;      // error of a queued command when its turn came
+  double place_units = 0;              // at rest, the commanded coordinate, which the travel rounds
+  std::int64_t sent_pulses = 0;        // pulses sent in the last tick, with sign
+  Error late_error = Error::none;      // the error of a queued command when it reached the head
   std::array<Output, kOutputs> outputs{};
   std::array<PositionTrigger, 2> triggers{};
   Fifo<Job, kFifoLength> fifo;
@@ -84,25 +84,25 @@ struct Module {
   bool jogs_or_pushes() const { return activity == Activity::jog || activity == Activity::thrust; }
   /// Returns true if the module is active, or a command is waiting for it.
   bool busy() const { return activity != Activity::idle || !fifo.empty() || holds_jog(); }
-  /// Returns the activity of the module, or the activity that a pause holds.
+  /// Returns the activity of the module, even if a pause holds it.
   Activity activity_or_held() const;
 
   // ---- With its axis
   double coordinate(const motion::Axis& axis) const { return units_of(axis.travel_pulses - zero_pulses); }
-  /// Both return the state after all commands in the FIFO; `number` is the module's own.
+  /// Both functions return the state after all commands in the FIFO. `number` is the module's own.
   bool servo_expected(const motion::Axis& axis) const;
   double end_expected(int number, const motion::Axis& axis) const;
 
   /// Converts to pulses, rounded half away from zero.
   std::int64_t pulses_of(double units) const;
   double units_of(std::int64_t pulses) const;
-  /// Returns true if the coordinate is within the countable range.
+  /// Returns true if the coordinate can be counted.
   bool reaches(double units) const;
 
-  /// Returns the factor of AVM on VM and VJ, 0 .. 1.
+  /// Returns the factor that AVM applies to VM and VJ, 0 .. 1.
   double analog_factor() const;
   motion::SpeedLaw working_law(const ChainOptions& options) const;
-  /// Returns the law of a jog; if VJ is 0, its top speed is 0.
+  /// Returns the law of a jog. If VJ is 0, its top speed is 0.
   motion::SpeedLaw jog_law(const ChainOptions& options) const;
 };
 

@@ -19,8 +19,8 @@ namespace understudy::emulator::models::slim {
 
 namespace {
 
-/// Drops the head. No other FIFO contains a command of a single module. Returns true, because the FIFO has
-/// changed.
+/// Drops the head. Other FIFOs never contain a command for a single module. Returns true, because the FIFO
+/// has changed.
 bool drop_head(Module& module, Error why) {
   module.late_error = why;
   module.fifo.pop();
@@ -40,7 +40,7 @@ bool start_move(const Motor& motor, Tick begin_at) {
   motion::Axis& axis = motor.axis;
   Job& job = module.fifo[0];
   if (!job.absolute) job.units[0] += module.place_units;
-  job.absolute = true;  // the rest of an interrupted move goes to the same position
+  job.absolute = true;  // after an interruption, the move continues to the same position
   job.ends[0] = job.units[0];
   if (!axis.servo_on) return drop_head(module, Error::servo_off);
   if (!module.reaches(job.units[0])) return drop_head(module, Error::range);
@@ -51,7 +51,7 @@ bool start_move(const Motor& motor, Tick begin_at) {
     return true;
   }
   const motion::SpeedLaw law = module.working_law(motor.options);
-  if (law.top_speed_u_s == 0) return false;  // AVM without a voltage: the move starts when there is one
+  if (law.top_speed_u_s == 0) return false;  // AVM without a voltage: the move starts when there is a voltage
   motion::Cause refused = motion::Cause::none;
   try {
     refused = axis.move(distance, law, begin_at - 1);
@@ -95,7 +95,7 @@ void after_move(const Motor& motor) {
   take_off(module, MarkEvent::stands);
   module.place_units = motor.coordinate();
   const motion::Cause cause = motor.axis.cause;
-  if (cause == motion::Cause::stopped) return;  // a pause holds it, and it continues from here
+  if (cause == motion::Cause::stopped) return;  // a pause holds the move, which will continue from here
   if (cause != motion::Cause::arrived) {
     drop_head(module, Error::not_allowed);
   } else if (was_move) {

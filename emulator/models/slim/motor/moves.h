@@ -1,5 +1,5 @@
-// The commands that a module executes alone at the head of its FIFO (MA, MR and H). Pauses and AVM slow their
-// motion down.
+// The commands that a single module executes at the head of its FIFO (MA, MR and H). Pauses and AVM slow down
+// these motions.
 #pragma once
 
 #include "base/simulated_time.h"
@@ -9,13 +9,14 @@
 
 namespace understudy::emulator::models::slim {
 
-/// Both start the FIFO's head, or drop it with a late error. They return true if the FIFO has changed.
+/// Both functions start the command at the head of the FIFO, or drop it with a late error. They return true
+/// if the FIFO has changed.
 bool start_move(const Motor& motor, Tick begin_at);
 bool start_home(const Motor& motor, Tick begin_at);
 
-/// Does what the end of a move or homing requires.
+/// Performs what follows the end of a move or homing.
 void after_move(const Motor& motor);
-/// Does what the end of a motion requires, if the motor has moved alone and is at rest.
+/// If the motor has moved alone and is at rest, performs what follows the end of the motion.
 inline void after_motion(const Motor& motor, Tick begin_at) {
   const Activity activity = motor.module.activity;
   if (activity == Activity::idle || activity == Activity::group || motor.axis.moving()) return;
@@ -30,11 +31,11 @@ inline void after_motion(const Motor& motor, Tick begin_at) {
 void hold_motion(const Motor& motor);
 void resume_motion(const Motor& motor);
 
-/// Applies a changed speed to the running move or jog, if no pause holds it. Returns false if the motor stops
-/// or is at rest whatever its speed is.
+/// Applies a changed speed to the running move or jog, unless a pause holds it. Returns false if the motor is
+/// stopping or at rest regardless of its speed.
 bool refresh_speed(const Motor& motor, bool is_held);
 
-/// Ends the motor's own motion at once; the running command is dropped.
+/// Ends the motor's own motion immediately. The running command is dropped.
 void cut_motion(const Motor& motor, motion::Cause why);
 
 }  // namespace understudy::emulator::models::slim

@@ -11,14 +11,15 @@ namespace {
 
 constexpr double kTicksPerSecond = 1000;
 constexpr double kFastestShown_hz = kTicksPerSecond / 2;
-/// A duration that a division makes slightly longer than a whole number of ticks counts as that number.
+/// A duration that is slightly longer than a whole number of ticks, because of a division, counts as that
+/// number.
 constexpr double kTolerance_ticks = 1e-6;
 
 bool varies(const Output& output) {
   return output.frequency_hz <= kFastestShown_hz && output.duty_percent > 0 && output.duty_percent < 100;
 }
 
-/// Returns the first tick, counted from the start of period 0, that is at or after `periods` periods.
+/// Returns the first tick, counted from the start of period 0, at or after the end of `periods` periods.
 double tick_of(const Output& output, double periods) {
   return std::ceil(periods * kTicksPerSecond / output.frequency_hz - kTolerance_ticks);
 }
@@ -76,7 +77,7 @@ void carry_out(Output& output, const OutputOrder& order, Tick begin_at) {
                 .duty_percent = order.duty_percent};
       break;
     case OutputOrder::Kind::all:
-    case OutputOrder::Kind::arm: break;  // the module handles this
+    case OutputOrder::Kind::arm: break;  // handled by the module
   }
 }
 

@@ -15,10 +15,10 @@ struct Output {
   enum class Mode : std::uint8_t {
     level,
     pulse,  // on from `since` until `since` + `width`, then off
-    pwm,    // on for the first `duty_percent` of each period, counted from `since`
+    pwm,    // on for the first `duty_percent` of each period, beginning at `since`
   };
   Mode mode = Mode::level;
-  bool on = false;  // the level in mode level; in the other modes, the level before `since`
+  bool on = false;  // in mode `level`, the level; in the other modes, the level before `since`
   Tick since = 0;
   Tick width = 0;  // the width of a single pulse
   double frequency_hz = 0;
@@ -26,10 +26,10 @@ struct Output {
 
   bool operator==(const Output&) const = default;
 
-  /// Returns the level at a tick. A frequency that ticks cannot show (above 500 Hz) gives the prevailing
-  /// level.
+  /// Returns the level at a tick. If the frequency is too high for ticks (above 500 Hz), it is the level that
+  /// prevails.
   bool level_at(Tick tick) const;
-  /// Returns the first tick after `done` at which the level may change without a command, or kNever.
+  /// Returns the first tick after `done` in which the level may change without a command, or kNever.
   Tick next_change(Tick done) const;
 };
 
@@ -39,7 +39,7 @@ struct OutputOrder {
   Kind kind = Kind::set;
   std::uint8_t output = 0;   // the output; 0 is P1
   std::uint8_t mask = 0;     // for `all`: bit 0 is P1
-  std::uint8_t trigger = 0;  // for `arm`: which of the two triggers, 0 or 1
+  std::uint8_t trigger = 0;  // for `arm`: the trigger, 0 or 1
   bool trigger_sets = false;
   Tick width = 0;
   double frequency_hz = 0;
@@ -49,7 +49,8 @@ struct OutputOrder {
   bool operator==(const OutputOrder&) const = default;
 };
 
-/// P1SET, P1CLR (trigger 0), P2SET, P2CLR (trigger 1): act when the coordinate is reached from either side.
+/// P1SET, P1CLR (trigger 0), P2SET, P2CLR (trigger 1): triggers when the coordinate is reached from either
+/// side.
 struct PositionTrigger {
   bool armed = false;
   bool sets = false;
@@ -59,7 +60,7 @@ struct PositionTrigger {
   bool operator==(const PositionTrigger&) const = default;
 };
 
-/// Executes all kinds but arm. Pulses and PWM begin with tick `begin_at`, so they last whole ticks.
+/// Executes all kinds except `arm`. Pulses and PWM begin in tick `begin_at`, so they last whole ticks.
 void carry_out(Output& output, const OutputOrder& order, Tick begin_at);
 
 }  // namespace understudy::emulator::models::slim

@@ -1,4 +1,4 @@
-// Gives the chain the chosen options of the rows of choices.h that concern modules and motion.
+// The selected options that affect modules and motion, for the chain.
 #pragma once
 
 #include <array>
@@ -13,9 +13,9 @@
 
 namespace understudy::emulator::models::slim {
 
-/// A pointer to a device's decisions. It is stored in the device's state without being part of it, so all
-/// such pointers compare equal. A copy of the state may outlive the device or belong to another one, so a
-/// copy has no pointer, and assignment keeps the target's own.
+/// A pointer to a device's decisions. It is stored within the device's state but is not part of the state, so
+/// all such pointers compare equal. A copy of the state may outlive the device or belong to another device,
+/// so a copy has no pointer, and assignment keeps the target's own pointer.
 struct NotedDecisions {
   Decisions* decisions = nullptr;
 
@@ -33,9 +33,9 @@ struct NotedDecisions {
   constexpr bool operator==(const NotedDecisions& /*other*/) const { return true; }
 };
 
-/// The chosen option of each row; by default our own choice, the first of the row.
+/// The selected option of each row, by default the first one.
 struct ChainOptions {
-  std::array<std::uint8_t, std::size(kChoices)> numbers{};  // chosen option of each row
+  std::array<std::uint8_t, std::size(kChoices)> numbers{};  // the selected option of each row
   NotedDecisions noted{};
 
   constexpr bool chose(const Option& option) const {
@@ -43,7 +43,7 @@ struct ChainOptions {
     return numbers[option.choice] == option.number;
   }
   constexpr void choose(const Option& option) { numbers[option.choice] = option.number; }
-  /// Returns the number of the chosen option, for a row whose options are numbers.
+  /// Returns the number of the selected option, for a row whose options are numbers.
   constexpr int number(std::size_t row) const {
     noted.ask(row);
     return number_of(kChoices[row], numbers[row]);

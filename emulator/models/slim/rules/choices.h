@@ -1,6 +1,6 @@
-// SLIM: what its command list leaves open, and what we chose. The list gives names and meanings of commands
-// and hardly anything about the dialogue around them, so most rows are proposals. docs/fidelity/slim.md is
-// generated from these rows; a bench overrides one with `choices: { ID: OPTION }`.
+// SLIM: what its command list leaves open, and what we chose. The list contains the names and meanings of
+// commands but says little about the dialogue, so most rows are proposals. docs/fidelity/slim.md is generated
+// from these rows, and a bench can override a row with `choices: { ID: OPTION }`.
 #pragma once
 
 #include <array>
@@ -256,7 +256,7 @@ inline constexpr auto kChoices = [] {
   return all;
 }();
 
-/// The place of the language's rows in the table.
+/// The position of the language's rows in the table.
 inline constexpr std::size_t kFirstOfLanguage = std::size(kDialogueChoices);
 
 }  // namespace understudy::emulator::models::slim

@@ -1,12 +1,12 @@
-// The transition table of pauses: what each command does under each pause.
+// The transition table of pauses: the effect of each command during each pause.
 //
 //   PZ   is ended by REDO, which continues, and by CLR BUF, which abandons
 //   TAPZ is ended by TAREDO, which continues, and by TAUPZ, which abandons
 //   TASTOP ends both
 //
-// Both pauses can be in effect; motion continues when neither is left. Each cell has the outcome, the pause
-// that is left, the source (the list's line, or a row of choices.h), and the results under other options.
-// chain/stops.cpp and chain/refusals.cpp look it up; pauses_test.cpp checks every cell.
+// Both pauses can be in effect; motion continues when both have ended. Each cell contains the outcome, the
+// remaining pause, the source (a line of the command list, or a row of choices.h), and the results with other
+// options. chain/stops.cpp and chain/refusals.cpp use the table, and pauses_test.cpp checks every cell.
 #pragma once
 
 #include <array>
@@ -38,23 +38,23 @@ enum class InPause : std::uint8_t {
   taredo,
   taupz,
   tastop,
-  reset,   // a RESET of T0; that of another module concerns only that module
+  reset,   // a RESET of T0; a RESET of another module concerns only that module
   motion,  // a motion that can wait in the buffer: MA, H, 2MA ...
   jog,     // a motion that cannot wait: JGF, JGR, FT
 };
 inline constexpr std::size_t kInPause = 10;
 
 enum class PauseOutcome : std::uint8_t {
-  slows_down,  // held motion slows down on its path; none of it is lost
+  slows_down,  // held motion slows down on its path without losing any of it
   continues,   // motion that is no longer held continues
-  gives_up,    // the unfinished and the waiting commands are discarded
-  clears,      // the waiting commands are discarded; the unfinished one is finished, now or after the pause
-  stops,       // no more pulses, and no command is left
+  gives_up,    // the unfinished command and the waiting commands are discarded
+  clears,      // waiting commands are discarded; the unfinished one is completed, now or after the pause
+  stops,       // no further pulses, and no command remains
   resets,      // like stops, for one module
-  in_vain,     // no effect, or error 3 by `ineffective_pause`
-  is_taken,    // accepted; begins when its turn comes
+  in_vain,     // no effect, or error 3 (choice `ineffective_pause`)
+  is_taken,    // accepted; begins when it reaches the head
   waits,       // accepted; begins when the pause is over
-  is_refused,  // error 6; a program waits
+  is_refused,  // error 6; in a program, it waits
 };
 
 struct PauseResult {
@@ -64,7 +64,7 @@ struct PauseResult {
   bool operator==(const PauseResult&) const = default;
 };
 
-/// The result of a cell under another option.
+/// The result of a cell if another option is selected.
 struct OtherPauseResult {
   std::optional<Option> chosen{};
   PauseResult result{};
@@ -75,7 +75,7 @@ struct PauseRow {
   InPause what;
   PauseResult result;
   std::string_view by;
-  OtherPauseResult other{}, another{};  // the first chosen one applies
+  OtherPauseResult other{}, another{};  // the first one whose option is selected applies
 };
 
 namespace pauses {
@@ -155,7 +155,7 @@ inline constexpr auto kRowOfCell = [] {
 
 }  // namespace pauses
 
-/// Its number among the tables of transition_tables.h.
+/// The number of this table in transition_tables.h.
 inline constexpr std::size_t kPauseTable = 1;
 
 constexpr const PauseRow& pause_row(Pauses now, InPause what) {

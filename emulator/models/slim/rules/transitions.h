@@ -1,5 +1,6 @@
-// The transition table of pauses, resumes and stops against the activities of the chain and its program. Each
-// cell has its outcome and the source for it: the list's line, or the first option of a row of choices.h.
+// The transition table of the chain and its program: the effect of pauses, resumes and stops on each
+// activity. Each cell contains the outcome and its source: a line of the command list, or the first option of
+// a row of choices.h.
 //
 // The code follows this table (chain/stops.cpp for motions; dialogue.cpp and commands.cpp for programs), and
 // transitions_test.cpp checks every cell.
@@ -12,7 +13,7 @@
 
 namespace understudy::emulator::models::slim {
 
-/// The activities. The last four are those of a program, which may run during any of the others.
+/// The activities. The last four are those of a program, which may run during any of the other activities.
 enum class ActiveTask : std::uint8_t {
   line,
   move,
@@ -41,22 +42,22 @@ enum class From : std::uint8_t { host, program, event_routine };
 inline constexpr std::size_t kSources = 3;
 
 enum class Outcome : std::uint8_t {
-  // of a motion:
-  decelerates,          // decelerates along its ramp, on its path; none of it is lost
-  continues_as_before,  // continues what it did before the pause
+  // For a motion:
+  decelerates,          // decelerates along its ramp, on its path; nothing of it is lost
+  continues_as_before,  // continues as before the pause
   is_dropped,           // is at rest and does not continue
-  stops_at_once,        // stops without another pulse and does not continue
-  // of a program:
-  continues,           // continues as if nothing had happened: it keeps waiting, or takes its next line
-  ends,                // takes no further line
-  ends_after_routine,  // the event's routine continues to its RET, but the interrupted program does not
-  cannot_be,           // impossible: a waiting program gives no command, except in an event's routine
+  stops_at_once,        // stops without a further pulse and does not continue
+  // For a program:
+  continues,           // unaffected: it continues to wait, or executes its next line
+  ends,                // executes no further line
+  ends_after_routine,  // the event routine continues to its RET, but the interrupted program does not
+  cannot_be,           // impossible: a waiting program sends no command, except in an event routine
 };
 
 struct Transition {
   ActiveTask task;
   Event event;
-  std::array<Outcome, kSources> outcomes;  // by From: the host, the program, an event's routine
+  std::array<Outcome, kSources> outcomes;  // by From: the host, the program, an event routine
   std::string_view by;
 };
 
@@ -68,7 +69,7 @@ constexpr std::array<Outcome, kSources> of_waiting(Outcome outcome) {
 }  // namespace transitions
 
 inline constexpr Transition kTransitions[] = {
-    // --- TAPZ: "each motor that moves slows down at once, in step, and keeps to its path"
+    // --- TAPZ: all moving motors slow down immediately, in step, and stay on the path
     {ActiveTask::line, Event::pause, transitions::any(Outcome::decelerates), "list, TAPZ"},
     {ActiveTask::move, Event::pause, transitions::any(Outcome::decelerates), "list, TAPZ"},
     {ActiveTask::homing, Event::pause, transitions::any(Outcome::decelerates), "list, TAPZ"},
@@ -81,7 +82,7 @@ inline constexpr Transition kTransitions[] = {
      "pause_in_program"},
     {ActiveTask::program_waits_for_motion, Event::pause, transitions::of_waiting(Outcome::continues),
      "pause_in_program"},
-    // --- TAREDO: "each motor does at once what it did before the pause"
+    // --- TAREDO: all motors immediately continue what they did before the pause
     {ActiveTask::line, Event::resume, transitions::any(Outcome::continues_as_before), "list, TAREDO"},
     {ActiveTask::move, Event::resume, transitions::any(Outcome::continues_as_before), "list, TAREDO"},
     {ActiveTask::homing, Event::resume, transitions::any(Outcome::continues_as_before), "list, TAREDO"},
@@ -94,7 +95,7 @@ inline constexpr Transition kTransitions[] = {
      "while_program_runs"},
     {ActiveTask::program_waits_for_motion, Event::resume, transitions::of_waiting(Outcome::continues),
      "while_program_runs"},
-    // --- TAUPZ: "the command that is half done, and all in the buffer, are given up"
+    // --- TAUPZ: the unfinished command and the whole buffer are abandoned
     {ActiveTask::line, Event::give_up, transitions::any(Outcome::is_dropped), "list, TAUPZ"},
     {ActiveTask::move, Event::give_up, transitions::any(Outcome::is_dropped), "list, TAUPZ"},
     {ActiveTask::homing, Event::give_up, transitions::any(Outcome::is_dropped), "list, TAUPZ"},
@@ -107,7 +108,7 @@ inline constexpr Transition kTransitions[] = {
      "while_program_runs"},
     {ActiveTask::program_waits_for_motion, Event::give_up, transitions::of_waiting(Outcome::continues),
      "while_program_runs"},
-    // --- TASTOP: "each axis stops at once, in an emergency"
+    // --- TASTOP: all axes stop immediately, as in an emergency
     {ActiveTask::line, Event::stop, transitions::any(Outcome::stops_at_once), "list, TASTOP"},
     {ActiveTask::move, Event::stop, transitions::any(Outcome::stops_at_once), "list, TASTOP"},
     {ActiveTask::homing, Event::stop, transitions::any(Outcome::stops_at_once), "list, TASTOP"},
@@ -129,7 +130,7 @@ inline constexpr Transition kTransitions[] = {
      Event::stop,
      {Outcome::ends, Outcome::cannot_be, Outcome::ends_after_routine},
      "emergency_stop_program"},
-    // --- PZ and REDO: like TAPZ and TAREDO for motions; programs have rows of their own
+    // --- PZ and REDO: as TAPZ and TAREDO for motions; programs have separate rows
     {ActiveTask::line, Event::pause_q, transitions::any(Outcome::decelerates), "pause_scope"},
     {ActiveTask::move, Event::pause_q, transitions::any(Outcome::decelerates), "pause_scope"},
     {ActiveTask::homing, Event::pause_q, transitions::any(Outcome::decelerates), "pause_scope"},
@@ -156,7 +157,7 @@ inline constexpr Transition kTransitions[] = {
      "while_program_runs"},
 };
 
-/// Its number among the tables of transition_tables.h.
+/// The number of this table in transition_tables.h.
 inline constexpr std::size_t kTaskTable = 0;
 
 /// Checks that every cell has exactly one row.

@@ -16,7 +16,7 @@ class AxisFlags : protected Chips {
   bool status(int axis_number, AxisStatus what) const;
 
  private:
-  /// Returns whether M8x97 to M8x99 show a motion.
+  /// Returns true if M8x97 to M8x99 show a motion.
   bool shows_running(bool is_by_contact) const;
 
   const Comparators& comparators_;

@@ -36,7 +36,7 @@ void AxisInputs::update_environment(int axis_number) {
     motion::Signal signal;
     std::optional<bool> active_level;
   };
-  // MRK looks for its mark on a limit input, whatever its use as a limit.
+  // MRK searches for its mark on a limit input, even if the input is used as a limit.
   const Rest& rest = axis(axis_number).rest;
   const auto limit_of_line = [&](int direction) {
     const std::optional<bool> level = limit_level(direction);
@@ -85,7 +85,7 @@ void AxisInputs::update_environment(int axis_number) {
   environment(axis_number) = seen;
 }
 
-/// A signal that is ON at power-up is not an edge of the contact that shows it.
+/// A signal that is ON at power-up does not count as an edge of the contact that shows it.
 void AxisInputs::see_first_signals() {
   if (ground_.state().has_ticked) return;
   for (int number = 0; number < kAxisCount; ++number) {
@@ -106,7 +106,7 @@ std::optional<MachineEdges::Span> AxisInputs::span_of(int axis, int input) const
 
 void AxisInputs::set_edges(int axis, const MachineEdges& edges) {
   edges_[static_cast<std::size_t>(axis)] = edges;
-  // A restored state has already seen these signals, but not the inputs that have changed since the last
+  // A restored state already includes these signals, but not the inputs that have changed since the last
   // tick.
   if (!std::exchange(is_restored_[static_cast<std::size_t>(axis)], false)) update_environment(axis);
 }

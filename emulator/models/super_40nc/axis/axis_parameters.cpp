@@ -59,7 +59,7 @@ motion::AxisSettings AxisParameters::motor_settings(int axis, bool homes) const 
   return made;
 }
 
-/// If D8x17 is a separate counter, a new CMX or CDV leaves it unchanged.
+/// If D8x17 is a separate counter, a new CMX or CDV does not change it.
 void AxisParameters::keep_display(int axis_number) {
   AxisState& state = axis(axis_number);
   const motion::UnitScale scale = registers().scale(axis_number);
@@ -80,7 +80,7 @@ void AxisParameters::apply_axis_parameters(int axis_number, int number) {
   };
   switch (number) {
     case d9x::kEncoderDirection: {
-      // The axis counts in the other direction from here on, and has not met anything yet.
+      // From here on, the axis counts in the other direction, and no signal has affected it yet.
       motion::Axis& motor = chip(axis_number);
       const std::int64_t counts = axis(axis_number).encoder_counts;
       motor.encoder_pulses = motor.encoder_seen =

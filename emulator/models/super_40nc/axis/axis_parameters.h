@@ -1,4 +1,4 @@
-// Applies parameters and counters to an axis when they are written.
+// Applies written parameters and counters to an axis.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ class AxisParameters : protected Chips {
   AxisParameters(const Chips& chips, Comparators& comparators, AxisInputs& inputs)
       : Chips(chips), comparators_(comparators), inputs_(inputs) {}
 
-  /// Applies a written register of an axis: D9x00 + `number`, or for 0 a D8x.
+  /// Applies a written register of an axis: D9x00 + `number`, or, if `number` is 0, a D8x.
   void apply_axis_parameters(int axis_number, int number);
   /// Applies the parameters of all axes.
   void apply_all_axis_parameters();

@@ -1,4 +1,4 @@
-// The parts of the axes. Each may use only those before it.
+// The parts of the axes. Each part may use only the parts before it.
 #pragma once
 
 #include "emulator/models/super_40nc/axis/axis_flags.h"

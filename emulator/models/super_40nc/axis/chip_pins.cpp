@@ -21,7 +21,7 @@ namespace understudy::emulator::models::super_40nc {
 
 namespace {
 
-/// D9x06: from 12 us to 104 ms, in whole ticks; the last one stays until the next start.
+/// D9x06: from 12 us to 104 ms, in whole ticks. The last one lasts until the next start.
 constexpr std::array<Tick, 8> kErcTicks{1, 1, 1, 2, 13, 52, 104, kNever};
 
 }  // namespace
@@ -55,7 +55,7 @@ void ChipPins::pin_changes(int axis, ChipPin pin, bool is_on, std::int64_t speed
   const Value mode = registers().of(stored_x(d9x::kClrSignal), axis);
   if (mode == (is_on ? kAtOn : kAtOff) || holds_cleared(axis)) clear_by_pin(axis);
   const bool has_level = mode == kWhileOn || mode == kWhileOff;
-  if (has_level) parameters_.apply_axis_parameters(axis, 0);  // a held counter passes no comparator
+  if (has_level) parameters_.apply_axis_parameters(axis, 0);  // comparators do not react to a held counter
 }
 
 void ChipPins::hold_cleared() {
@@ -78,7 +78,7 @@ void ChipPins::give_erc(int axis) {
   axes_.erc_until[static_cast<std::size_t>(axis)] = ticks == kNever ? kNever : now() + 1 + ticks;
 }
 
-/// Outputs ERC, which clears the drive's deviation counter, after a stop without a ramp.
+/// After a stop without a ramp, outputs ERC, which clears the drive's deviation counter.
 void ChipPins::give_erc_behind(int axis, Code code) {
   const Settings settings = registers();
   const bool is_limit = code == Code::limit_positive || code == Code::limit_negative;

@@ -1,4 +1,4 @@
-// The chip's CLR, LTC and ERC, which are fitted only if so chosen.
+// The chip's CLR, LTC and ERC, which are present only if a choice says so.
 #pragma once
 
 #include <cstddef>
@@ -19,19 +19,19 @@ class ChipPins : protected Chips {
 
   using Chips::has_chip_pins;
   void see_pins();
-  /// Handles a change of CLR or LTC at its moment, after the counters have counted up to that moment. `speed`
-  /// is the chip's speed then.
+  /// Handles a change of CLR or LTC at its moment, up to which the counters have already counted. `speed` is
+  /// the chip's speed at that moment.
   void pin_changes(int axis, ChipPin pin, bool is_on, std::int64_t speed);
   /// Clears the counters in the mask D9x27.
   void clear_by_pin(int axis);
-  /// Clears the counters that CLR holds at 0. COUNTER1 follows the travel, so it is set back at the end of
+  /// Clears the counters that CLR holds at 0. Since COUNTER1 follows the travel, it is reset at the end of
   /// each tick.
   void hold_cleared();
   /// Returns true while ERC is output (M8x49, M8x52, M8x53).
   bool gives_erc(int axis) const { return now() < axes_.erc_until[static_cast<std::size_t>(axis)]; }
   void give_erc(int axis);
   void give_erc_behind(int axis, Code code);
-  /// Returns the first tick after `done` at which an ERC ends.
+  /// Returns the first tick after `done` in which an ERC ends.
   Tick next_end_of_erc(Tick done) const;
 
  private:

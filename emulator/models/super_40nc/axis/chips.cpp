@@ -99,7 +99,7 @@ std::int32_t Chips::operation_of(int axis_number) const {
   if (!(sample.speed_u_s > 0)) return kStopped;
   if (sample.acceleration_u_s2 > 0) return kSpeedingUp;
   if (sample.acceleration_u_s2 < 0) return kSlowingDown;
-  constexpr int kCreep = 1;  // index of a homing's speeds
+  constexpr int kCreep = 1;  // index into the speeds of a homing
   if (motor.homing.active() && motor.homing.row().speed == kCreep) return kAtFa;
   return sample.speed_u_s > motor.law.start_speed_u_s ? kAtFh : kAtFl;
 }

@@ -1,5 +1,5 @@
 // The axes of a SUPER-40NC as values, and everything that follows from them alone: counters, positions,
-// speeds. Each part of the axes is such a view, with its own functions.
+// speeds. Each part of the axes is such a view with its own functions.
 #pragma once
 
 #include <cstddef>
@@ -34,13 +34,13 @@ class Chips : protected OnGround {
   }
   bool is_on_path(int axis) const { return axes_.path.takes(static_cast<std::size_t>(axis)); }
   bool has_chip_pins() const { return has_chip_pins_; }
-  /// Returns the level of CLR or LTC, as sampled.
+  /// Returns the sampled level of CLR or LTC.
   bool pin_seen(int axis, ChipPin pin) const {
     return (pin == kClearPin ? axes_.clears_seen : axes_.latches_seen)[static_cast<std::size_t>(axis)];
   }
-  /// Returns true if the level of CLR keeps counters at 0 (D9x09).
+  /// Returns true if CLR is holding counters at 0 (D9x09).
   bool holds_cleared(int axis) const;
-  /// Returns true if it keeps COUNTER1 to COUNTER4 (`which` 0 to 3) at 0.
+  /// Returns true if CLR is holding one of COUNTER1 to COUNTER4 (`which` 0 to 3) at 0.
   bool is_held_cleared(int axis, int which) const;
   bool has_signal(int number, motion::Signal signal) const {
     return (chip(number).signals & motion::bit(signal)) != 0;
@@ -55,8 +55,8 @@ class Chips : protected OnGround {
   /// Returns the position that D8x17 shows, in the work coordinate.
   std::int64_t work_lu(int axis_number) const;
   std::int64_t relative_base_lu(int axis_number) const;
-  /// Returns the pulses to the target, which are not 0 if PSET, another D8x40 or CMX has moved a target that
-  /// was reached.
+  /// Returns the pulses to the target. They are not 0 if PSET, another D8x40 or CMX has moved a target that
+  /// was already reached.
   std::int64_t distance_to(int axis_number, std::int64_t target_lu) const;
   std::int64_t remaining_pulses(int axis_number) const;
   std::int64_t braking_pulses(int axis) const;
@@ -71,16 +71,16 @@ class Chips : protected OnGround {
   double commanded_pps(int axis_number) const;
   /// Returns the speed in the motor's direction.
   double speed_pps(int axis_number) const;
-  /// Returns the speed in steps of the chip (D8x70).
+  /// Returns the speed in the chip's speed steps (D8x70).
   std::int32_t chip_speed(int axis_number) const;
 
-  // --- who has an axis
-  /// Looks up the table of ownership.h, under the chosen option.
+  // --- who holds an axis
+  /// Looks up the table in ownership.h, with the selected options.
   Grant granted(Activity holder, Request request) const {
     note_request(holder, request);
     return grant(holder, request, lines_wait_);
   }
-  /// Notes a request that is carried out without consulting the table.
+  /// Records a request that is executed without consulting the table.
   void note_request(Activity holder, Request request) const {
     ground_.decisions().meet(kOwnershipTable, static_cast<std::size_t>(holder),
                              static_cast<std::size_t>(request));
@@ -88,7 +88,7 @@ class Chips : protected OnGround {
   bool is_awaited_by(Mover mover) const;
 
  protected:
-  /// Discards the end of a motion between ticks after it has been handled.
+  /// Discards the end of a motion that happened between ticks, after it has been handled.
   void forget_end(int axis);
 
   AxesState& axes_;
@@ -102,7 +102,7 @@ class Chips : protected OnGround {
 /// The modes of D9x09.
 enum ClearMode : std::uint8_t { kAtOn, kAtOff, kWhileOn, kWhileOff };
 
-/// The values of D8x64, by the chip's numbers.
+/// The values of D8x64, as numbered by the chip.
 enum Operation : std::int32_t {
   kStopped = 0,
   kBacklash = 7,
@@ -115,7 +115,7 @@ enum Operation : std::int32_t {
   kAtInp = 14,  // all pulses are sent; the axis waits for INP
 };
 
-/// Wraps a sum to 32 bits, as the chip does.
+/// Wraps a sum to 32 bits, like the chip.
 inline std::int32_t wrapped(std::int64_t number) {
   return static_cast<std::int32_t>(static_cast<std::uint32_t>(number));
 }

@@ -1,5 +1,5 @@
-// The settings of the comparators (D9x31 to D9x48, D8x44 to D8x48), and the moment at which a number meets
-// one.
+// The settings of the comparators (D9x31 to D9x48, D8x44 to D8x48), and the moment at which a number fulfils
+// the condition of a comparator.
 #pragma once
 
 #include <algorithm>
@@ -26,7 +26,7 @@ inline constexpr std::array<ComparatorRow, kComparators> kComparatorRows{
      {stored_x(d9x::kCp5Source), stored_x(d9x::kCp5Method), stored_x(d9x::kCp5Action),
       stored_d(d8x::kPrcmp5)}}};
 
-/// The sources. A counter's source is its index; COUNTER3 is compared without its sign.
+/// The sources. The source of a counter is its index. COUNTER3 is compared without its sign.
 enum CompareSource : Value { kCounter1, kCounter2, kCounter3, kCounter4, kRemaining, kSpeed };
 enum CompareMethod : Value { kEqual = 1, kEqualUpwards, kEqualDownwards, kSetAbove, kSetBelow, kSoftLimit };
 enum CompareAction : Value { kStopAtOnce = 1, kStopByRamp };
@@ -38,10 +38,10 @@ inline bool latches(const Settings& settings, int axis, std::size_t which) {
   return which >= 3 && settings.of(stored_x(d9x::kLatchOfCounters), axis) == static_cast<Value>(which) - 1;
 }
 
-/// Returns true if a number has met the condition between two values. Soft limits have no such moment.
+/// Returns true if a number has fulfilled the condition between two values. Soft limits have no such moment.
 constexpr bool is_met(Value source, Value method, std::int64_t before, std::int64_t present,
                       std::int64_t set) {
-  // The remaining distance only falls; if it rises, a new move has set it, and it has passed nothing.
+  // The remaining distance only decreases. If it increases, a new move has set it, so it has passed nothing.
   if (source == kRemaining && present > before) before = std::max(before, present - 1);
   const bool upwards = before < set && set <= present;
   const bool downwards = before > set && set >= present;

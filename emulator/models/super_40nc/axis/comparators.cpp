@@ -1,8 +1,8 @@
-// The five comparators of an axis (D9x31 to D9x48, D8x44 to D8x48): = (1), on the way up (2) or down (3), set
-// > count (4), set < count (5), and soft limits (6). The axis itself compares COUNTER1, and COUNTER2 and
-// COUNTER4 if they count pulses or an encoder, four of them at once; tick_edges.h compares everything else.
-// Both act at the exact pulse. Only what cannot be known in advance is checked at the end of a tick: an
-// encoder that does not follow.
+// The five comparators of an axis (D9x31 to D9x48, D8x44 to D8x48): = (1), upwards (2), downwards (3), set >
+// count (4), set < count (5), and soft limits (6). The axis itself compares COUNTER1, and COUNTER2 and
+// COUNTER4 if they count pulses or an encoder, but at most four comparators. tick_edges.h compares everything
+// else. Both react at the exact pulse. Only what cannot be predicted is checked at the end of a tick: an
+// encoder that does not follow the axis.
 #include "emulator/models/super_40nc/axis/comparators.h"
 
 #include <cstddef>
@@ -68,7 +68,7 @@ bool Comparators::comparator_holds(int axis, int number) const {
   }
 }
 
-/// Returns the comparator in the axis's own form, or nothing if the axis cannot evaluate it.
+/// Returns the comparator in the form that the axis uses, or nothing if the axis cannot evaluate it.
 std::optional<motion::Comparator> Comparators::comparator_of(int axis_number, std::size_t which) const {
   const Settings settings = registers();
   const ComparatorRow& row = kComparatorRows[which];
@@ -85,7 +85,8 @@ std::optional<motion::Comparator> Comparators::comparator_of(int axis_number, st
   const bool is_stopped =
       is_bit(settings.raw(stored_x(d9x::kDisableC2ToC4), axis_number), static_cast<int>(source) - 1);
   if (is_stopped || (source != kCounter2 && source != kCounter4)) return std::nullopt;
-  // The source of COUNTER2 is D9x23, that of COUNTER4 D9x25: the pulses, the encoder, or something else.
+  // The source of COUNTER2 is D9x23, and that of COUNTER4 is D9x25: the pulses, the encoder, or something
+  // else.
   const Value from =
       settings.of(source == kCounter2 ? stored_x(d9x::kC2Source) : stored_x(d9x::kC4Source), axis_number);
   const bool by_pulses = from == (source == kCounter2 ? 1 : 0);
@@ -130,7 +131,7 @@ void Comparators::set_comparators(int axis_number) {
   see_counters(axis_number);
 }
 
-/// Sets a comparator; setting the same one again changes nothing.
+/// Sets a comparator. Setting an equal one again changes nothing.
 void Comparators::set_comparator(int axis, std::size_t place, motion::Comparator wanted) {
   const motion::Comparator& present = chip(axis).comparators[place];
   wanted.was_true = present.was_true;
@@ -138,7 +139,7 @@ void Comparators::set_comparator(int axis, std::size_t place, motion::Comparator
   if (wanted != present) chip(axis).set_comparator(place, wanted);
 }
 
-/// Marks the counters as seen: a written number has not passed anything.
+/// Marks the counters as seen, because a written number has not passed anything.
 void Comparators::see_counters(int axis_number) {
   AxisState& state = axis(axis_number);
   for (std::size_t which = 0; which < kComparators; ++which) {

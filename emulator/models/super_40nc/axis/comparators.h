@@ -10,7 +10,7 @@
 
 namespace understudy::emulator::models::super_40nc {
 
-/// The stop that a comparator demands when it is checked at the end of a tick.
+/// The stop that a comparator requests when it is checked at the end of a tick.
 struct ComparatorStop {
   bool by_ramp = false;
   motion::Cause why = motion::Cause::none;
@@ -21,9 +21,9 @@ class Comparators : protected Chips {
   explicit Comparators(const Chips& chips) : Chips(chips) {}
 
   bool comparator_holds(int axis, int number) const;
-  /// Sets the chip's comparators by the registers.
+  /// Sets the chip's comparators from the registers.
   void set_comparators(int axis_number);
-  /// Checks one comparator at the end of a tick. Returns the stop that it demands.
+  /// Checks one comparator at the end of a tick. Returns the stop that it requests.
   std::optional<ComparatorStop> compare(int axis_number, std::size_t which);
 
  private:

@@ -26,14 +26,15 @@ namespace understudy::emulator::models::super_40nc {
 
 namespace {
 
-/// Returns the counts by this moment of a tick: they are spread evenly over it, the last one at its end.
+/// Returns the counts up to a moment of a tick. They are spread evenly over the tick, the last one at its
+/// end.
 std::int64_t spread(std::int64_t counts, double at_s) {
   const double part = at_s * motion::kTicksPerSecond;
   const auto come = static_cast<std::int64_t>(part * static_cast<double>(std::abs(counts)) + 1e-9);
   return counts < 0 ? -come : come;
 }
 
-/// Returns the counts of half the chip's clock of 19.6608 MHz in a number of ticks.
+/// Returns how often half the chip's clock of 19.6608 MHz counts in a number of ticks.
 std::int64_t clock_counts(Tick ticks) { return ticks * 49'152 / 5; }
 
 std::int64_t clock_until(Tick tick, double at_s) {
@@ -153,10 +154,10 @@ void Counters::count(int axis_number, const Counted& counted) {
   }
   add_to_counters(axis_number, counted);
   if (is_beside_travel)
-    comparators_.set_comparators(axis_number);  // the comparators by travel would not notice it
+    comparators_.set_comparators(axis_number);  // the comparators that follow the travel would not notice it
 }
 
-/// D8x71: counts edges of C in the row of the search that counts them.
+/// D8x71: counts the edges of C in the homing row that searches for them.
 void Counters::count_index(int axis_number, std::int8_t phase_before) {
   const motion::Homing& homing = chip(axis_number).homing;
   if (phase_before < 0) return;
@@ -182,7 +183,7 @@ Counted Counters::counted_until(int axis_number, double at_s, const motion::Axis
   return counted;
 }
 
-/// Counts the pulses of an axis until a moment, at its present position.
+/// Counts the pulses of an axis up to a moment, at its present position.
 void Counters::count_without_encoder(int axis_number, double at_s) {
   const motion::Axis& motor = chip(axis_number);
   Counted counted = counted_until(

@@ -32,7 +32,8 @@ double Drives::override_percent() const {
   return chose(option("override_range", "0_to_100")) ? std::min(percent, kMax) : percent;
 }
 
-/// Returns the law of a line: by the axis's own times, or, for C if so chosen, by the times of C.
+/// Returns the speed law of a line: with the axis's own times, or, for C and depending on a choice, with the
+/// times of C.
 motion::SpeedLaw Drives::line_law(int axis, double rpm, Mover mover) const {
   const bool is_by_times_of_c = mover == Mover::c && chose(option("drv_of_c", "c11_to_c14"));
   const Settings settings = registers();
@@ -47,7 +48,7 @@ motion::SpeedLaw Drives::drive_law(int axis, std::int32_t rpm, Mover mover) cons
 bool Drives::begin_drive(int axis_number, std::int64_t target_lu, std::int32_t rpm, Mover mover) {
   AxisState& state = axis(axis_number);
   starts_.prepare(axis_number);
-  state.mover = mover;  // the mover's line is reported in D8095 if the motion cannot begin
+  state.mover = mover;  // if the motion cannot begin, D8095 shows the mover's line
   const std::int64_t distance = distance_to(axis_number, target_lu);
   const motion::SpeedLaw law = drive_law(axis_number, rpm, mover);
   starts_.begun(axis_number, chip(axis_number).move(distance, law, before_motion()), Activity::move);

@@ -1,4 +1,4 @@
-// Motions of a single axis that a program or the PLC begins: DRV, MRK and VDRV.
+// Motions of a single axis that a program or the PLC starts: DRV, MRK and VDRV.
 #pragma once
 
 #include <cstdint>
@@ -17,9 +17,9 @@ class Drives : protected Chips {
 
   /// Returns D8005 within its limits.
   double override_percent() const;
-  /// Returns the law of DRV, which the feed override does not scale unless that is chosen.
+  /// Returns the speed law of DRV. A choice decides whether the feed override scales it.
   motion::SpeedLaw drive_law(int axis, std::int32_t rpm, Mover mover) const;
-  // Each of these returns true if the motion has begun; if not, it reports its error.
+  // Each of these functions returns true if the motion has begun; otherwise, it reports its error.
   bool begin_drive(int axis_number, std::int64_t target_lu, std::int32_t rpm, Mover mover);
   bool begin_mark(int axis_number, std::int64_t distance, std::int64_t search, std::int32_t rpm, Mover mover);
   bool begin_blind_mark(int axis_number, std::int64_t target_lu, std::int32_t rpm, Mover mover);

@@ -21,7 +21,7 @@ namespace understudy::emulator::models::super_40nc {
 
 namespace {
 
-/// The chip's modes of homing (PRMD).
+/// The chip's homing modes (PRMD).
 constexpr int kModeGoHome = 0x10;
 constexpr int kModeGoHomeBack = 0x18;
 constexpr int kModeGoToZero = 0x41;
@@ -48,7 +48,7 @@ void Homes::start_home(int axis_number, int order) {
     return home_fails(axis_number);
   }
   starts_.prepare(axis_number, true);
-  // X25 = 0 never leads away from a DOG that is ON.
+  // With X25 = 0, the axis never leaves a DOG that is ON.
   if (!is_by_limit && has_signal(axis_number, motion::Signal::home) &&
       settings.of(stored_x(d9x::kMoveOff), axis_number) == 0 &&
       chose(option("home_leave_0", "the_search_fails"))) {

@@ -1,4 +1,4 @@
-// HOME and ZERO: their start and their results (《X20.》 to 《X32.》, 《X26.》).
+// HOME and ZERO: how they start, and their results (《X20.》 to 《X32.》, 《X26.》).
 #pragma once
 
 #include "emulator/models/super_40nc/axis/axis_inputs.h"
@@ -16,7 +16,7 @@ class Homes : protected Chips {
 
   void start_home(int axis_number, int order = 0);
   void start_zero(int axis_number, int order = 0);
-  /// Called when a homing has ended. `code` is the reason for a failure; none: it was abandoned.
+  /// Called when a homing has ended. `code` is the reason for a failure; none: the homing was abandoned.
   void home_ended(int axis_number, bool found, Code code);
   /// Called when the zero return of an axis has ended before its target.
   void zero_failed(int axis_number);

@@ -20,7 +20,7 @@ namespace {
 
 /// The chip's mode of motion (PRMD).
 constexpr int kModeContinuous = 0x00;
-constexpr int kModeNegative = 0x08;  // added for the negative direction
+constexpr int kModeNegative = 0x08;  // added for negative direction
 
 }  // namespace
 

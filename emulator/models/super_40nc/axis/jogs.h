@@ -1,4 +1,4 @@
-// Jogs, by contact or by the PLC.
+// Jogs that a contact or the PLC requests.
 #pragma once
 
 #include "emulator/models/super_40nc/axis/chips.h"
@@ -12,7 +12,7 @@ class Jogs : protected Chips {
   Jogs(const Chips& chips, Starts& starts) : Chips(chips), starts_(starts) {}
 
   void start_jog(int axis_number, int direction, bool AxisState::*asked_by);
-  /// Stops a jog along its ramp when no request is left.
+  /// Stops a jog along its ramp when no request remains.
   void release_jog(int axis_number, bool AxisState::*asked_by);
   /// Applies D8022.
   void change_jog_speed();

@@ -1,6 +1,6 @@
-// Marks of an axis of a SUPER-40NC: flags that are set when something begins, for a later decision. Each mark
-// has a row with the events that clear it. The code clears marks by this table, and a test begins every
-// motion, ends it in every possible way and checks all rows.
+// Marks of a SUPER-40NC axis: flags that are set for a later decision. The row of each mark contains the
+// events that clear it. Only this table clears marks. A test begins every motion, ends it in every possible
+// way and checks all rows.
 #pragma once
 
 #include <array>
@@ -15,8 +15,8 @@ enum class MarkEvent : std::uint8_t {
   motion_begins,
   motion_ends,      // in any way: arrived, stopped, abandoned, or replaced by another command
   path_ends,        // the end of LIN or an arc, in any way
-  program_over,     // of the waiting program; only awaited and stop_awaited_by name the program
-  orders_given_up,  // orders of the main page's HOME and ZERO keys
+  program_over,     // of the waiting program; only awaited and stop_awaited_by refer to it
+  orders_given_up,  // orders from the main page's HOME and ZERO keys
   reset,            // M8x02
   plc_run,
 };

@@ -1,5 +1,6 @@
-// Decides which motion gets an axis. The manual only says that a DRV waits for the one before it, that VDRV 0
-// ends any motion, and what stops programs; the rest is our choice. The motion that moves an axis keeps it.
+// Decides which motion gets an axis. The manual only states that a DRV waits for the previous DRV, that VDRV
+// 0 ends any motion, and what stops programs; everything else is our choice. The motion that moves an axis
+// holds it.
 #pragma once
 
 #include <array>
@@ -14,9 +15,9 @@ enum class Activity : std::uint8_t {
   jog,
   home,   // to the machine zero
   zero,   // to the work zero
-  move,   // a move of a program or the PLC, with an end
-  rest,   // the rest of a move that a pause interrupted
-  vdrv,   // turns at a speed
+  move,   // a move by a program or the PLC that has an end
+  rest,   // the rest of a move that a pause has interrupted
+  vdrv,   // rotates at a speed
   wheel,  // follows the hand wheel
 };
 inline constexpr std::size_t kActivities = 8;
@@ -25,12 +26,12 @@ inline constexpr std::size_t kActivities = 8;
 enum class Request : std::uint8_t {
   jog,
   home_or_zero,
-  wheel,     // by contact or D8020
+  wheel,     // requested by contact or D8020
   line,      // a line of a step program: LIN, an arc, DRV, HOM, MRK
   mpg_line,  // MPG
   plc_drv,
-  vdrv,    // not 0
-  vdrv_0,  // ends any motion
+  vdrv,    // with a speed other than 0
+  vdrv_0,  // with speed 0, which ends any motion
   stop,    // STP, M8x02, M8002
 };
 inline constexpr std::size_t kRequests = 9;
@@ -38,12 +39,12 @@ inline constexpr std::size_t kRequests = 9;
 enum class Grant : std::uint8_t {
   nothing,  // nothing to do
   starts,
-  // if of the same kind (a jog in the same direction, the same wheel source), it continues; otherwise as
+  // continues if it is of the same kind (a jog in the same direction, the same wheel source); otherwise like
   // refused
   continues_if_same_kind,
-  refused,  // has no effect, and is reported in D8094
+  refused,  // no effect, and D8094 reports it
   waits,
-  new_speed,  // changes the speed of a turning axis
+  new_speed,  // changes the speed of a rotating axis
   stops,      // stops along a ramp or at once, depending on the request
 };
 
@@ -66,8 +67,8 @@ inline constexpr std::array<OwnershipRow, kActivities> kOwnership = [] {
 }();
 // clang-format on
 
-/// An axis that turns at a speed or follows the wheel does not stop without a command, so a line for it is
-/// dropped. Under another choice the line waits for it too.
+/// An axis that rotates at a speed or follows the wheel does not stop without a command, so a line for the
+/// axis is dropped. With another option, the line also waits for such an axis.
 struct OwnershipCell {
   Activity holder;
   Request request;

@@ -65,12 +65,13 @@ void Starts::prepare(int axis_number, bool homes) {
       std::min(parameters.pps(axis_number, creep_rpm), parameters.top_pps(axis_number));
   chip(axis_number).set(settings);
   state.masked = parameters.is_on(stored_x(d9x::kPulseMask), axis_number);
-  // Signals that have come in this tick count; the DOG's edge is left for the latch.
+  // Signals that have changed in this tick count. The DOG's edge is left for the latch.
   motion::Axis& motor = chip(axis_number);
   const motion::Signals mark = motion::bit(motion::Signal::mark);
   const motion::Signals seen = environment(axis_number).at(motor.travel_pulses, motor.signals);
   motor.signals = static_cast<motion::Signals>((seen & ~mark) | (motor.signals & mark));
-  // A host may have written the high half alone, as the manual's wrong example does: the low half counts.
+  // A host may have written the high half alone, as the wrong example in the manual does, so the low half
+  // counts.
   const bool is_whole = chose(option("motor_direction", "whole_value"));
   const std::int32_t direction =
       parameters.raw(stored_x(d9x::kPulseMode), axis_number) & (is_whole ? -1 : 0xFFFF);
@@ -95,12 +96,12 @@ void Starts::begun(int axis_number, motion::Cause why_not, Activity holder) {
     fail(axis_number, code_of(why_not));
     return;
   }
-  // For a program, only its start clears the error.
+  // For a program, only starting the program clears the error.
   if (state.mover >= Mover::plc) ground_.error_is_over();
   take_off(state, MarkEvent::motion_begins);
   state.holder = holder;
   Tick& erc = axes_.erc_until[static_cast<std::size_t>(axis_number)];
-  if (erc == kNever) erc = 0;  // a level, until the next start
+  if (erc == kNever) erc = 0;  // a level until the next start
 }
 
 void Starts::fail(int axis_number, Code code) {
@@ -132,7 +133,7 @@ void Starts::mirror_start(int axis_number, int mode, std::int64_t distance_pulse
   const double creep_pps =
       settings.pps(axis_number, static_cast<double>(settings.of(stored_x(d9x::kCreepSpeed), axis_number)));
   struct Shown {
-    int offset;  // from PRCMD
+    int offset;  // relative to PRCMD
     std::int32_t value;
   };
   const Shown shown[] = {{0, kStartWithRamp},
@@ -148,7 +149,7 @@ void Starts::mirror_start(int axis_number, int mode, std::int64_t distance_pulse
                          {10, settings.raw(stored_x(d9x::kSAcceleration), axis_number)},
                          {11, settings.raw(stored_x(d9x::kSDeceleration), axis_number)}};
   static constexpr StoredRegister kFirst = stored_d(d8x::kPrcmd);
-  static constexpr StoredRegister kFirstWorking = stored_d(d8x::kRmv);  // RMV; the other registers follow
+  static constexpr StoredRegister kFirstWorking = stored_d(d8x::kRmv);  // RMV comes first
   const auto show = [&](StoredRegister first, int offset, std::int32_t value) {
     const auto slot = first.slot + static_cast<std::size_t>(offset * kAxisCount + axis_number);
     ground_.state().image[slot] = static_cast<std::uint32_t>(value);

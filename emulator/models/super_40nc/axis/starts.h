@@ -1,4 +1,4 @@
-// Begins and ends motions of an axis, whatever their kind.
+// Begins and ends motions of an axis, independent of their kind.
 #pragma once
 
 #include <cstdint>
@@ -17,16 +17,16 @@ class Starts : protected Chips {
   Starts(const Chips& chips, AxisInputs& inputs, AxisParameters& parameters, ChipPins& pins)
       : Chips(chips), inputs_(inputs), parameters_(parameters), pins_(pins) {}
 
-  /// Returns what the axis's holder grants; a refusal is reported at the PLC's line.
+  /// Returns what the axis's holder grants. A refusal is reported with the PLC's line.
   Grant ask(int axis_number, Request request);
   /// Reads the parameters that a motion needs when it starts.
   void prepare(int axis_number, bool homes = false);
   void begun(int axis_number, motion::Cause why_not, Activity holder);
-  /// Writes to the chip's registers what a start leaves there.
+  /// Writes the chip's registers as a start would leave them.
   void mirror_start(int axis_number, int mode, std::int64_t distance_pulses, const motion::SpeedLaw& law);
   void fail(int axis_number, Code code);
   void let_go(int axis_number);
-  /// Returns the limit that the axis is on, if that blocks both directions.
+  /// Returns the limit at which the axis is, if the limit blocks both directions.
   motion::Cause blocked_both_ways(int axis) const;
 
  private:

@@ -63,7 +63,8 @@ void TickEdges::latch(const motion::SharedTick& tick, int axis_number) {
   }
 }
 
-/// Latches by D9x50: at the DOG's edge, or at the comparators 4 and 5 if the axis itself compares them.
+/// Latches according to D9x50: at the DOG's edge, or at comparators 4 and 5 if the axis itself evaluates
+/// them.
 void TickEdges::at_edge(motion::SharedTick& tick, std::size_t number, motion::Events events) {
   const int axis_number = static_cast<int>(number);
   constexpr Value kDog = 1;
@@ -75,7 +76,7 @@ void TickEdges::at_edge(motion::SharedTick& tick, std::size_t number, motion::Ev
   latch(tick, axis_number);
 }
 
-// ---- numbers between the edges
+// ---- numbers between edges
 
 TickEdges::Question TickEdges::question(int axis, std::size_t which) const {
   const Settings settings = registers();
@@ -91,14 +92,14 @@ bool TickEdges::is_answered(const Question& of, std::int64_t before, std::int64_
   if (of.method != kSoftLimit) return is_met(of.source, of.method, before, present, of.set);
   const motion::Axis& motor = chip(of.axis);
   const bool reacts = !motor.moving() || motor.slowing || axes_.path.slowing_for != motion::Cause::none;
-  if (reacts) return false;  // the comparator has been reported already
+  if (reacts) return false;  // the comparator was already reported
   const int direction = motor.last_direction;
   return of.which == 0 ? direction > 0 && present > of.set
                        : of.which == 1 && direction < 0 && present < of.set;
 }
 
-/// Returns false if no comparison can trigger between two moments. Each counter keeps its direction until the
-/// next edge, so no number moves further than all of them together.
+/// Returns false if no comparator can trigger between two moments. Until the next edge, each counter keeps
+/// its direction, so no number changes by more than the sum of all of them.
 bool TickEdges::may_be_answered(const Question& of, const Sample& from, const Sample& to) const {
   const std::int64_t max =
       std::abs(to.place.travel_pulses - from.place.travel_pulses) +
@@ -117,7 +118,7 @@ bool TickEdges::may_be_answered(const Question& of, const Sample& from, const Sa
 std::int64_t TickEdges::speed(int axis_number, double at_s) const {
   const motion::Axis& motor = chip(axis_number);
   const bool has_profile = motor.drive.drive == motion::Drive::running && !is_on_path(axis_number);
-  if (!has_profile) return chip_speed(axis_number);  // the speed of the whole tick
+  if (!has_profile) return chip_speed(axis_number);  // the speed in the whole tick
   const double speed_pps = std::abs(motor.drive.sample(instant(at_s)).speed_u_s);
   return std::llround(speed_pps / axis(axis_number).step_pps);
 }
@@ -154,7 +155,7 @@ TickEdges::Sample TickEdges::sample(motion::SharedTick& tick, const Question& of
   return sample;
 }
 
-/// Halves the time between two moments until the first change that answers is found.
+/// Bisects the time between two moments to find the first change that triggers the comparator.
 std::optional<double> TickEdges::first_answer(motion::SharedTick& tick, const Question& of,
                                               const Sample& from, const Sample& to) const {
   if (!may_be_answered(of, from, to)) return std::nullopt;
@@ -174,7 +175,7 @@ std::optional<double> TickEdges::first_answer(motion::SharedTick& tick, const Qu
   return first_answer(tick, of, middle, to);
 }
 
-/// Within a part of its profile, a speed only rises or only falls.
+/// Within a segment of its profile, a speed either only rises or only falls.
 std::optional<double> TickEdges::first_speed(motion::SharedTick& tick, const Question& of, const Sample& from,
                                              const Sample& to) const {
   const motion::PulseDrive& drive = chip(of.axis).drive;
@@ -205,7 +206,7 @@ std::optional<double> TickEdges::next_comparison(motion::SharedTick& tick, const
   return of.source == kSpeed ? first_speed(tick, of, from, to) : first_answer(tick, of, from, to);
 }
 
-/// Returns when a pin changes its level next, if a switch of the machine is wired to it.
+/// If a switch of the machine is connected to a pin, returns when its level changes next.
 std::optional<double> TickEdges::next_flip(motion::SharedTick& tick, int axis, ChipPin pin, double from_s,
                                            double to_s) const {
   const auto span = inputs_.span_of(axis, chip_pin_of(axis, pin));
@@ -215,7 +216,7 @@ std::optional<double> TickEdges::next_flip(motion::SharedTick& tick, int axis, C
   const std::int64_t begin = travel_at(from_s);
   const std::int64_t end = travel_at(to_s);
   const bool is_inside = pin_seen(axis, pin) == span->level_inside;
-  // The first place from here on, in this direction, that has the other level.
+  // The first place in this direction that has the other level.
   std::int64_t place = 0;
   if (is_inside) {
     const bool has_left = begin > span->last + span->slack || begin < span->first - span->slack;
@@ -223,7 +224,7 @@ std::optional<double> TickEdges::next_flip(motion::SharedTick& tick, int axis, C
   } else {
     const bool has_come = begin >= span->first && begin <= span->last;
     place = has_come ? begin : end >= begin ? span->first : span->last;
-    if (end >= begin ? begin > span->last : begin < span->first) return std::nullopt;  // already passed
+    if (end >= begin ? begin > span->last : begin < span->first) return std::nullopt;  // passed
   }
   if (place == begin) return from_s;
   if (end >= begin ? end < place : end > place) return std::nullopt;
@@ -286,7 +287,7 @@ void TickEdges::compare(motion::SharedTick& tick, const Question& of) {
   stop(tick, of.axis, action == kStopByRamp, why);
 }
 
-/// Stops an axis; a path stops with any of its axes.
+/// Stops an axis, or the path that carries it.
 void TickEdges::stop(motion::SharedTick& tick, int axis, bool by_ramp, motion::Cause why) {
   ground_.touch();
   if (by_ramp && is_on_path(axis)) return tick.slow_path(why, axes_.path.run.speed());

@@ -1,7 +1,7 @@
-// Events on the axes of a SUPER-40NC within a tick, each at the exact pulse at which it occurs
-// (motion/shared_tick.h): latches at the DOG and at the chip's comparators; comparators of numbers other than
-// the travel or an encoder (COUNTER3, the hand wheel's counts, the remaining distance, the speed); and the
-// pins LTC and CLR, if a switch of the machine is wired to them.
+// Events on the axes of a SUPER-40NC within a tick, at the exact pulse (motion/shared_tick.h): latches at the
+// DOG and at the chip's comparators; comparators of numbers other than the travel or an encoder (COUNTER3,
+// the hand wheel's counts, the remaining distance, the speed); and the pins LTC and CLR, if a switch of the
+// machine is connected to them.
 #pragma once
 
 #include <cstddef>
@@ -28,7 +28,7 @@ class TickEdges final : protected Chips, public motion::EdgeOwner {
       : Chips(chips), inputs_(inputs), counters_(counters), pins_(pins) {}
 
   void begin_tick(Tick tick, bool wheel_turns);
-  /// Returns the mask of the axes with comparators or pins that the axes themselves do not evaluate.
+  /// Returns a mask of the axes that have comparators or pins which the axes themselves do not evaluate.
   std::uint32_t watched() const { return watched_; }
 
   void at_edge(motion::SharedTick& tick, std::size_t axis, motion::Events events) override;
@@ -36,14 +36,14 @@ class TickEdges final : protected Chips, public motion::EdgeOwner {
   void at_moment(motion::SharedTick& tick) override;
 
  private:
-  /// An axis at a moment, in seconds of the tick.
+  /// An axis at a moment of the tick, in seconds.
   struct Sample {
     double at_s = 0;
     motion::AxisPlace place{};
-    Counted since{};  // since the counters were counted last
+    Counted since{};  // since the counters were last updated
     std::int64_t number = 0;
   };
-  /// The question that a comparator asks in this tick.
+  /// What a comparator waits for in this tick.
   struct Question {
     int axis = 0;
     std::size_t which = 0;
@@ -52,7 +52,7 @@ class TickEdges final : protected Chips, public motion::EdgeOwner {
     std::int64_t set = 0;
   };
 
-  /// The result of the last next_moment(): a comparator, or a pin.
+  /// The result of the last next_moment(): a comparator or a pin.
   struct Found {
     int axis = 0;
     std::optional<std::size_t> comparator{};
@@ -83,7 +83,7 @@ class TickEdges final : protected Chips, public motion::EdgeOwner {
   AxisInputs& inputs_;
   Counters& counters_;
   ChipPins& pins_;
-  // Working values of a tick; none of them is state.
+  // Working data of a tick, not part of the state.
   Tick tick_ = 0;
   std::uint32_t watched_ = 0;
   Found found_{};

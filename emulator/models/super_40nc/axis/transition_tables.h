@@ -8,7 +8,7 @@
 
 namespace understudy::emulator::models::super_40nc {
 
-inline constexpr std::size_t kOwnershipTable = 0;  // the number of its only table
+inline constexpr std::size_t kOwnershipTable = 0;  // the number of the only table
 
 std::span<const TransitionTable> transition_tables();
 

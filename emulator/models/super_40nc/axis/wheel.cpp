@@ -40,8 +40,8 @@ std::int64_t Wheel::wheel_lu_per_count(int axis_number) const {
   }
 }
 
-/// Sets the ratio from the current parameters. The remainder left from earlier counts is kept unless the
-/// divider changes.
+/// Sets the ratio from the present parameters. The remainder of earlier counts is kept unless the divider
+/// changes.
 void Wheel::follow_ratio(int axis) {
   motion::Follower& follower = chip(axis).follower;
   const Settings settings = registers();

@@ -1,5 +1,5 @@
-// The hand wheel: one for all axes. Each axis decodes and scales its counts by its own parameters (《X40.》
-// to 《X44.》).
+// The hand wheel, which all axes share. Each axis decodes and scales its counts with its own parameters
+// (《X40.》 to 《X44.》).
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ class Wheel : protected Chips {
   Wheel(const Chips& chips, Starts& starts) : Chips(chips), starts_(starts) {}
 
   void start_wheel(int axis_number, WheelSource source);
-  /// Feeds the edges to each axis, which decodes them by its own parameters.
+  /// Passes the edges to each axis, which decodes them with its own parameters.
   void feed_wheel(std::int32_t edges);
   void wheel_ended(int axis);
 

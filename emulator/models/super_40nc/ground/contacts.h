@@ -1,5 +1,5 @@
-// The special contacts written since the last scan. A contact that a host switches ON and OFF between two
-// scans is ON for one of them. An edge counts even if a later writer changes the contact.
+// The special contacts that were written since the last scan. A contact that a host switches ON and OFF
+// between two scans is ON for one of them. An edge counts even if the contact is written again afterwards.
 #pragma once
 
 #include <array>
@@ -18,30 +18,30 @@ struct Contacts {
 
   bool operator==(const Contacts&) const = default;
 
-  /// Records a write by a host, or by a key of the panel.
+  /// Records a write by a host or by a panel key.
   void write(int contact, bool on) {
     std::uint8_t& flag = flags[place(contact)];
     if (on) flag |= (flag & kLevel) == 0 ? kLevel | kWasOn | kRose : kWasOn;
     if (!on) flag = static_cast<std::uint8_t>(flag & ~kLevel);
   }
-  /// Records a press of a command key: an edge, even if the contact is ON already.
+  /// Records a press of a command key, which is an edge even if the contact is already ON.
   void press(int contact) { flags[place(contact)] |= kLevel | kWasOn | kRose; }
-  /// Records a write by a program: the scan's contact step then considers only the level.
+  /// Records a write by a program. In this case, the contact step of the scan considers only the level.
   void overwrite(int contact) {
     std::uint8_t& flag = flags[place(contact)];
     flag = static_cast<std::uint8_t>(flag & ~kWasOn);
   }
-  /// Returns whether the contact is ON for this scan. `level` is its stored value.
+  /// Returns true if the contact is ON for this scan. `level` is its stored value.
   bool on(int contact, bool level) const { return level || (flags[place(contact)] & kWasOn) != 0; }
   bool rose(int contact, bool level) const {
     const std::uint8_t flag = flags[place(contact)];
     return (flag & kRose) != 0 || (level && (flag & kSeen) == 0);
   }
-  /// Ends a scan: remembers the level that it has seen.
+  /// Ends a scan: records the level that the scan has seen.
   void see(int contact, bool level) { flags[place(contact)] = level ? kLevel | kSeen : std::uint8_t{0}; }
 
  private:
-  static constexpr std::uint8_t kLevel = 1;  // as last written
+  static constexpr std::uint8_t kLevel = 1;  // the last written level
   static constexpr std::uint8_t kRose = 2;   // since the last scan
   static constexpr std::uint8_t kWasOn = 4;  // has been ON since the last scan
   static constexpr std::uint8_t kSeen = 8;   // was ON in the last scan

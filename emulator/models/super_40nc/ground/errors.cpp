@@ -45,7 +45,7 @@ void Ground::report(Code code, Mover of_its_line) {
   report(error);
 }
 
-/// Called when a program, or a motion by hand or of the PLC, has started.
+/// Called when a program has started, or a motion by hand or by the PLC.
 void Ground::error_is_over() {
   if (!chose(option("error_clears", "plc_to_run_alone"))) clear_error();
 }

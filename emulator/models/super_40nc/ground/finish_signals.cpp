@@ -1,4 +1,4 @@
-// The signals of outputs Y0 to Y9, which show for some time that a motion or a program has finished.
+// The signals at outputs Y0 to Y9, which indicate for some time that a motion or a program has finished.
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -13,7 +13,7 @@ namespace understudy::emulator::models::super_40nc {
 
 namespace {
 
-/// The time of each signal; its output is Y of the same number.
+/// The duration of each signal. Its output is the Y with the same number.
 struct FinishSignal {
   StoredRegister time;
   int axis = 0;

@@ -1,5 +1,5 @@
-// The common base of all parts of a SUPER-40NC: the image of the registers, the special contacts as a scan
-// sees them, the retentive memory, the error of D8094 to D8096, and the signals of Y0 to Y9.
+// The common base of all parts of a SUPER-40NC: the register image, the special contacts as a scan sees them,
+// the persistent memory, the error in D8094 to D8096, and the signals Y0 to Y9.
 #pragma once
 
 #include <array>
@@ -27,7 +27,7 @@ namespace understudy::emulator::models::super_40nc {
 using interpreter::super_40nc::Area;
 using interpreter::super_40nc::Code;
 
-/// Who moves an axis: a step program or the PLC, in the order of their areas, or an operator by hand.
+/// What moves an axis: a step program or the PLC, in the order of their areas, or an operator by hand.
 enum class Mover : std::uint8_t { c, x, y, z, u, plc, hand };
 
 /// The number of the transition table that counts the errors.
@@ -39,12 +39,12 @@ struct ErrorReport {
   std::int32_t step = 0;
   Area area = Area::plc;  // area of the step program's line; plc: a line of the PLC, or no line
   std::int32_t other_step = 0;
-  Tick tick = -1;  // the first of several errors in one tick stays
+  Tick tick = -1;  // if a tick has several errors, the first one stays
 
   bool operator==(const ErrorReport&) const = default;
 };
 
-/// Outputs that show for some time that something has finished (《X45.》, 《X46.》, 《C4.》, 《C5.》).
+/// Outputs that indicate for some time that something has finished (《X45.》, 《X46.》, 《C4.》, 《C5.》).
 inline constexpr std::size_t kSignalCount = 10;
 inline constexpr std::size_t kFirstEndSignal = 4;
 inline constexpr std::size_t kPathSignal = 8;
@@ -76,7 +76,7 @@ class Ground {
  public:
   using StepStates = interpreter::super_40nc::StepStates;
 
-  /// `steps` is only read: D8095 shows the line of a program.
+  /// `steps` is only read, because D8095 shows the line of a program.
   Ground(const Device& device, GroundState& state, const StepStates& steps);
 
   GroundState& state() { return state_; }
@@ -92,7 +92,7 @@ class Ground {
   Settings registers() const { return Settings(state_.image, readings_, state_.parameters_in_force); }
   /// Writes a register without its effect, as the device itself does.
   void put(StoredRegister kept, std::int32_t value, int axis = 0);
-  /// Stores the image's value in memory, if the register is retentive.
+  /// If the register is persistent, stores the image's value in the memory.
   void keep_slot(std::size_t slot) { state_.eeprom.write(slot, state_.image[slot], 0, now()); }
   bool contact(int number) const { return state_.image[relay_slot(number)] != 0; }
   void set_contact(int number, bool on) { state_.image[relay_slot(number)] = on ? 1 : 0; }
@@ -114,20 +114,20 @@ class Ground {
   // --- errors.cpp
   void report(const ErrorReport& error);
   void report(Code code) { report(ErrorReport{.code = code}); }
-  /// Reports at the current line of the mover's program, if there is one.
+  /// Reports an error at the current line of the mover's program, if any.
   void report(Code code, Mover of_its_line);
   void clear_error() { state_.error = {}; }
   void error_is_over();
-  /// Sets the PLC line that begins a motion, counted as by D8095; 0 between such lines.
+  /// Sets the PLC line that starts a motion, counted as in D8095; 0 outside such lines.
   void set_plc_step(int step) { plc_step_ = step; }
 
   // --- finish_signals.cpp
   /// Begins the signal Y0 + `signal`, or restarts it.
   void show_finished(std::size_t signal);
-  /// Returns true if a line gives the signal even if its axes are already at their targets.
+  /// Returns true if a line outputs the signal even if its axes are already at their targets.
   bool finishes_without_motion() const { return !chose(option("fsh_without_motion", "do_not_come")); }
   void update_signals(Tick tick);
-  /// Returns the first tick after `done` at which a signal changes.
+  /// Returns the first tick after `done` in which a signal changes.
   Tick next_signal_tick(Tick done) const;
 
  private:
@@ -140,19 +140,19 @@ class Ground {
   const StepStates& steps_;
   interpreter::super_40nc::Options options_;
   Readings readings_;             // cached choices
-  bool parameters_wait_ = false;  // cached: written parameters act later, all at once
+  bool parameters_wait_ = false;  // cached: written parameters take effect later, all at once
   bool shares_signals_ = false;   // cached
-  int plc_step_ = 0;              // not state: 0 outside a line
+  int plc_step_ = 0;              // not part of the state: 0 outside a line
 };
 
-/// The base class of every part that uses the ground.
+/// The base class of all parts that use the ground.
 class OnGround {
  protected:
   explicit OnGround(Ground& ground) : ground_(ground) {}
 
   bool chose(const Option& option) const { return ground_.chose(option); }
   Tick now() const { return ground_.now(); }
-  /// Returns the tick before this one: a scan's moves start in the scan's own tick.
+  /// Returns the previous tick, because moves of a scan start in the tick of the scan.
   Tick before_motion() const { return now() - 1; }
   std::int32_t input(int terminal) const { return ground_.input(terminal); }
   Settings registers() const { return ground_.registers(); }

@@ -1,4 +1,4 @@
-// The retentive memory of a SUPER-40NC: latched contacts and registers, with their factory values.
+// The persistent memory of a SUPER-40NC: latched contacts and registers, with their factory values.
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -30,8 +30,8 @@ Ground::Ground(const Device& device, GroundState& state, const StepStates& steps
       parameters_wait_(!chose(option("parameter_moment", "by_kind"))),
       shares_signals_(chose(option("signal_outputs", "the_plc_has_them_between"))) {}
 
-/// The panel's parameters have different factory values where the panel's chapter and the table of D9 differ
-/// (3 of them in every axis, the decimals, the logo).
+/// Some of the panel's parameters have a different factory value in the panel's chapter than in the table of
+/// D9 (three parameters of every axis, the decimals, the logo).
 std::uint32_t Ground::factory_bits(const RegisterRow& row) const {
   struct Panel {
     int number;
@@ -84,14 +84,14 @@ void Ground::put(StoredRegister kept, std::int32_t value, int axis) {
   }
 }
 
-/// Puts into effect written parameters that had to wait.
+/// Puts waiting written parameters into effect.
 void Ground::take_parameters() {
   if (!parameters_wait_) return;
   state_.parameters_in_force.assign(state_.image.begin() + static_cast<std::ptrdiff_t>(kFirstParameterSlot),
                                     state_.image.end());
 }
 
-/// Puts X14 and C0 into effect as they are at power-up.
+/// Puts X14 and C0 into effect, as at power-up.
 void Ground::take_power_up_parameters() {
   const Settings settings = registers();
   state_.logo_ms = static_cast<std::int32_t>(settings.of(stored_d(d9::kLogoTime)));

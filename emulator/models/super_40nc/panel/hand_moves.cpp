@@ -27,7 +27,8 @@ constexpr WheelSource kWheelSources[] = {WheelSource::contact_1, WheelSource::co
 
 }  // namespace
 
-/// Starts the axes of one order together, and the next order when all of them have finished.
+/// Starts the axes with the same order number together, and those of the next number when all of them have
+/// finished.
 void HandMoves::follow_order(OrderKey& key, Activity holder, StoredRegister order_of_axis,
                              void (Homes::*start)(int, int)) {
   const auto is_under_way = [&](const AxisState& state) {
@@ -58,7 +59,7 @@ void HandMoves::apply_order_keys() {
     if (!key.runs && keys_.is_pressed(what, -1)) key = {.runs = true};
   };
   press(axes_.homing_by_key, KeyDoes::home_by_order);
-  // As a HOME key, M8514 obeys the lock digit of HOME.
+  // As a HOME key, M8514 is subject to the lock digit of HOME.
   constexpr int kHomeDigit = 1;
   const bool is_home_key = keys_.is_origin_the_home_key() && rises(kOriginKey);
   const Key as_home{.contact = kOriginKey, .does = KeyDoes::home_by_order, .lock = kHomeDigit};

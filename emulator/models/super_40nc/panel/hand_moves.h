@@ -14,9 +14,10 @@ class HandMoves : protected Chips {
 
   /// Starts HOME, ZERO, jogs and the wheel, and releases what is no longer requested.
   void apply_contacts();
-  /// Drops the orders, because axes that are still stopping do not belong to a key pressed in the meantime.
+  /// Drops the orders, because axes that are still stopping do not belong to a key that was pressed in the
+  /// meantime.
   void give_up_orders();
-  /// Slows down motion by hand for PAUSE and M8006, if that is chosen.
+  /// A choice makes PAUSE and M8006 slow down motion by hand.
   void slow_by_hand(int axis);
 
  private:

@@ -13,7 +13,7 @@ enum class KeyDoes : std::uint8_t {
   pause_c,
   start_c,
   stop_c,
-  jog,  // while it is pressed; X52 swaps the directions
+  jog,  // while pressed; X52 swaps the directions
   home,
   zero,
   oset,
@@ -25,19 +25,19 @@ enum class KeyDoes : std::uint8_t {
 struct Key {
   int contact = 0;
   KeyDoes does = KeyDoes::jog;
-  int axis = -1;      // -1: on the main page, locked by D9025; otherwise on the axis' page, locked by D9x98
+  int axis = -1;      // -1: on the main page, locked by D9025; otherwise on the axis's page, locked by D9x98
   int direction = 0;  // jog direction
-  int lock = 0;       // the lock digit, counted from the left from 1
+  int lock = 0;       // the lock digit, counted from the left, beginning with 1
 };
 
-// Keys that the code needs by name.
+// Keys to which the code refers by name.
 inline constexpr int kFirstJogKey = 8560;  // the older jog keys have lower numbers
-inline constexpr int kOriginKey = 8514;    // the older name of the key that sets zero
+inline constexpr int kOriginKey = 8514;    // the older name of the set-zero key
 
 inline constexpr int kMainLockDigits = 6;
 inline constexpr int kAxisLockDigits = 9;
 
-/// All keys with a function. Keys that are only storage, such as those that turn pages, are left out.
+/// All keys that have a function. Keys that are only storage, such as those for turning pages, are omitted.
 inline constexpr auto kKeys = [] {
   constexpr int kMain = 6 + 5;
   constexpr int kJogAliases = 6;
@@ -45,7 +45,8 @@ inline constexpr auto kKeys = [] {
   std::array<Key, kMain + kJogAliases + kOfAxes> keys;
   std::size_t next = 0;
   const auto add = [&](const Key& key) { keys[next++] = key; };
-  // Five keys have an older name that does the same (《命令範例》 also has the jog keys' older names).
+  // Five keys have an older name with the same function (《命令範例》 also has the older names of the jog
+  // keys).
   for (const auto& [contact, older, does, lock] :
        {std::array{8592, 0, static_cast<int>(KeyDoes::home_by_order), 1},
         std::array{8593, 8513, static_cast<int>(KeyDoes::zero_by_order), 2},

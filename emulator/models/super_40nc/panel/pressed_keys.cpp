@@ -28,7 +28,7 @@ int jog_contact(int axis, int direction) {
 
 }  // namespace
 
-/// The wheel key of an axis's page has no contact; it selects by D8020.
+/// The wheel key on an axis's page has no contact; it selects the axis through D8020.
 bool PressedKeys::is_wheel_locked(int axis) const {
   constexpr int kWheelDigit = 1;
   return chose(option("lock_scope", "keys_and_d8020")) &&
@@ -42,8 +42,8 @@ bool PressedKeys::is_locked(const Key& key) const {
                       : has_digit(settings.raw(stored_x(d9x::kKeyLock), key.axis), kAxisLockDigits, key.lock);
 }
 
-/// A jog key writes its contact in each scan while it is pressed, and clears it when it is released. Its lock
-/// and X52 are read when it is pressed: even if they change afterwards, the axis stops with the key.
+/// A jog key writes its contact in each scan while it is pressed, and clears it when it is released. The lock
+/// and X52 are read when the key is pressed. Even if they change afterwards, the axis stops with the key.
 void PressedKeys::read_jog_keys() {
   const bool knows_older = !chose(option("jog_aliases", "plain_contacts"));
   for (int number = 0; number < kAxisCount; ++number) {
@@ -96,7 +96,7 @@ void PressedKeys::read_keys() {
             press(of_axis(m8x::kZeroSet, number));
         }
         break;
-      // These keys have no contact: the parts that obey them call is_pressed().
+      // These keys have no contact: the parts that react to them call is_pressed().
       case KeyDoes::stop:
       case KeyDoes::stop_c:
       case KeyDoes::pause:

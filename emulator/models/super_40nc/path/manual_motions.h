@@ -1,7 +1,6 @@
-// The table of what each event does to a motion for which no line of a step program waits. (《M8
-// 特殊接點的功用》, 《M8x 特殊接點的功用》, 《STP 指令》; where the manual says nothing, the entry is ours.)
-// The motor itself handles limits and alarms; interpreter/super_40nc/events.h handles lines and their
-// programs.
+// The table of how each event affects a motion for which no step program line is waiting. (《M8
+// 特殊接點的功用》, 《M8x 特殊接點的功用》, 《STP 指令》; where the manual is silent, the entry is ours.) The
+// motor itself handles limits and alarms; interpreter/super_40nc/events.h handles lines and their programs.
 #pragma once
 
 #include <array>
@@ -13,14 +12,14 @@ namespace understudy::emulator::models::super_40nc {
 enum class ManualMotion : std::uint8_t {
   jog,            // by contact or key
   plc_jog,        // PJG, MJG
-  home,           // by contact, the axis' key or the PLC's HOM
-  home_by_order,  // by the main page's key
+  home,           // by contact, by the axis's key or by the PLC's HOM
+  home_by_order,  // by the key on the main page
   zero,
   zero_by_order,
   wheel,           // by contact
   selected_wheel,  // by D8020
   plc_drive,
-  behind_end,  // VDRV or MPG of an axis program after its END, CHK 0
+  behind_end,  // VDRV or MPG of an axis program after END, or CHK 0
   behind_end_of_c,
 };
 inline constexpr std::size_t kManualMotions = 11;
@@ -28,12 +27,12 @@ inline constexpr std::size_t kManualMotions = 11;
 enum class ManualEvent : std::uint8_t {
   contact_off,  // the request has ended; D8020 was written
   pause,        // M8006, a PAUSE key
-  stop,         // STP, M8x02 or the STOP key of its axis
+  stop,         // STP, M8x02 or the STOP key of the axis
   stop_of_c,    // STP without fields
-  main_stop,    // the main page's STOP key
+  main_stop,    // the STOP key on the main page
   emergency,    // M8002, CEMG
   inhibit,      // M8004
-  plc_stop,     // the PLC goes to STOP
+  plc_stop,     // the PLC switches to STOP
 };
 inline constexpr std::size_t kManualEvents = 8;
 

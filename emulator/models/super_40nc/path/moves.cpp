@@ -98,7 +98,7 @@ std::optional<Broken> Moves::ended(int axis_number) {
   state.has_ended = true;
   if (held == Activity::nobody || held == Activity::rest) return std::nullopt;
   const bool has_found = (motor.events & motion::bit(motion::Event::homed)) != 0;
-  // The result of the last search or mark counts, however it ended; it stays until the next one.
+  // The result of the last search or mark counts, however it ended, until the next one ends.
   const bool is_stopped = why == motion::Cause::stopped;
   if (state.is_held && is_stopped && !has_found) {
     rest_axis(axis_number);
@@ -151,7 +151,7 @@ void Moves::hold_axis(int axis_number) {
   motor.slow_down(now());
 }
 
-/// Called when a held axis has come to rest, where it waits.
+/// Called when a held axis has stopped. It waits at that place.
 void Moves::rest_axis(int axis_number) {
   AxisState& state = axis(axis_number);
   if (state.rest.kind == RestKind::mark) {
@@ -211,7 +211,7 @@ std::optional<Broken> Moves::resume_axis(int axis_number) {
   return std::nullopt;
 }
 
-/// Resets the program, as if the axis had reached its present signals in motion.
+/// Resets the program, as if the axis had encountered its present signals during the motion.
 std::optional<Broken> Moves::cannot_resume(int axis_number, const Rest& rest, Mover mover, bool is_awaited) {
   const motion::Axis& motor = chip(axis_number);
   parts_.starts.let_go(axis_number);
@@ -255,7 +255,7 @@ void Moves::handle(int axis, ManualEvent event, Code code) {
   if (motion) handle(axis, *motion, event, code);
 }
 
-/// Applies the table of manual_motions.h.
+/// Applies the table in manual_motions.h.
 void Moves::handle(int axis, ManualMotion motion, ManualEvent event, Code code) {
   switch (answer_of(motion, event)) {
     case ManualAnswer::continues: break;

@@ -1,6 +1,6 @@
 // Before a path, every axis that reverses or slips (D9x57 = 2) sends its X1 pulses at X22, all axes at the
-// same time. The path begins when the last axis has finished. Within an arc nothing is corrected, as on the
-// chip, unless that is chosen. (Manual, X1., X22.)
+// same time. The path begins when the last axis has finished. Within an arc, nothing is corrected, as on the
+// chip, unless a choice requires it. (Manual, X1., X22.)
 #include "emulator/models/super_40nc/path/path_backlash.h"
 
 #include <algorithm>
@@ -24,7 +24,7 @@ namespace understudy::emulator::models::super_40nc {
 
 namespace {
 
-/// Returns the backlash as for a separate motion.
+/// Returns the backlash that a separate motion would have.
 std::int64_t backlash_before(const motion::Axis& motor, int direction) {
   const std::int64_t all = motor.settings.backlash_pulses;
   if (motor.settings.slips) return all;
@@ -59,14 +59,14 @@ void PathBacklash::begin_path_backlash(const motion::Path& path) {
     const std::int64_t untaken = backlash_before(motor, direction);
     if (untaken == 0) continue;
     axis(number).path_backlash = untaken * direction;
-    // Record how much has been sent, in case it is stopped.
+    // Record how much has been sent, because the backlash may be stopped.
     motor.backlash_taken_pulses = direction > 0 ? motor.settings.backlash_pulses - untaken : untaken;
     motor.last_direction = static_cast<std::int8_t>(direction);
   }
   awaits_path() ? axes_.path.run.pause(before_motion()) : end_path_backlash();
 }
 
-/// Ends the backlash before a path. On the path nothing is corrected.
+/// Ends the backlash before a path. On the path, nothing is corrected.
 void PathBacklash::end_path_backlash() {
   for (int number = 0; number < kAxisCount; ++number) {
     if (!is_on_path(number)) continue;
@@ -97,8 +97,8 @@ void PathBacklash::step_path_backlash(Tick tick, std::array<std::int64_t, kAxisC
   if (axes_.path.slowing_for == motion::Cause::none) axes_.path.run.resume(tick);
 }
 
-/// If that is chosen, an axis that reverses on its path sends X1 at X22 in addition. If it reverses again
-/// before the end, it takes back what it has sent so far.
+/// If a choice requires it, an axis that reverses on its path additionally sends X1 at X22. If it reverses
+/// again before the end, it first returns the pulses sent so far.
 void PathBacklash::step_arc_backlash(const std::array<std::int8_t, kAxisCount>& ways_before,
                                      std::array<std::int64_t, kAxisCount>& sent) {
   const Settings settings = registers();

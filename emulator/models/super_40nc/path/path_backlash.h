@@ -1,4 +1,4 @@
-// Backlash before a LIN or an arc, and, if that is chosen, within an arc.
+// Backlash before a LIN or an arc and, depending on a choice, within an arc.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@ class PathBacklash : protected Chips {
  public:
   PathBacklash(const Chips& chips, PathState& state) : Chips(chips), state_(state) {}
 
-  /// Returns true while backlash is still to be sent before the path.
+  /// Returns true while backlash must still be sent before the path.
   bool awaits_path() const;
   void begin_path_backlash(const motion::Path& path);
   void step_path_backlash(Tick tick, std::array<std::int64_t, kAxisCount>& sent);

@@ -1,5 +1,5 @@
-// A path has one profile along its length, with the smallest slope among its axes (《C11./C12.》 to
-// 《C22.》), and no axis exceeds its X12. The feed override applies at once.
+// A path has one profile along its length, with the smallest slope of its axes (《C11./C12.》 to 《C22.》),
+// and no axis exceeds its X12. The feed override takes effect immediately.
 #include "emulator/models/super_40nc/path/paths.h"
 
 #include <algorithm>
@@ -37,7 +37,7 @@ double pulses_per_lu(const Settings& settings, int axis) { return settings.scale
 
 }  // namespace
 
-/// Returns F, scaled by D8005; a feed that is not above 0 is the minimum feed.
+/// Returns F, scaled by D8005. If F is not above 0, returns the minimum feed.
 double Paths::path_feed() const {
   const double feed = std::max<std::int32_t>(state_.path_feed_lu_s, 1);
   return feed * state_.path_feed_scale * parts_.drives.override_percent() / 100;
@@ -67,7 +67,7 @@ Grant Paths::ask_for_path(const std::array<bool, kAxisCount>& takes) {
   return worst;
 }
 
-/// Returns why an axis cannot start a path: it is on a limit that the path moves into.
+/// Returns why an axis cannot start a path: it is at a limit, and the path moves towards that limit.
 motion::Cause Paths::blocked_on_path(int axis_number, const motion::Path& path) const {
   if (const motion::Cause why = parts_.starts.blocked_both_ways(axis_number); why != motion::Cause::none)
     return why;
@@ -77,7 +77,7 @@ motion::Cause Paths::blocked_on_path(int axis_number, const motion::Path& path) 
   return chip(axis_number).forbidden(ahead > 0 ? +1 : -1);
 }
 
-/// Prepares the axes of a path, and returns its law, in which the limit of each axis applies along its own
+/// Prepares the axes of a path, and returns its speed law, in which the limit of each axis applies to its own
 /// direction.
 motion::SpeedLaw Paths::prepare_axes(const PathPlan& plan, motion::Coordinated& path) {
   const Settings settings = registers();
@@ -85,7 +85,7 @@ motion::SpeedLaw Paths::prepare_axes(const PathPlan& plan, motion::Coordinated& 
   max.setConstant(std::numeric_limits<double>::infinity());
   double target_lu_s = std::numeric_limits<double>::infinity();
   double fastest_pps = 0;
-  double longest = 0;  // the most pulses of an axis per LU of the path
+  double longest = 0;  // the maximum number of pulses of an axis per LU of the path
   const auto number_of = [&](StoredRegister kept) { return static_cast<double>(settings.of(kept)); };
   const bool goes_by_longest = chose(option("path_law", "slope_of_the_longest_axis"));
   double fastest_ppu = 1;
@@ -120,7 +120,7 @@ motion::SpeedLaw Paths::prepare_axes(const PathPlan& plan, motion::Coordinated& 
                 number_of(stored_d(d9::kSDeceleration)) * step_lu_s);
 }
 
-/// Returns true if a limit or an alarm forbids the path to one of its axes.
+/// Returns true if a limit or an alarm of one of its axes forbids the path.
 bool Paths::is_blocked(const PathPlan& plan) {
   bool is_blocked = false;
   for (int number = 0; number < kAxisCount; ++number) {
@@ -187,7 +187,7 @@ bool Paths::has_room_on_path(const std::array<bool, kAxisCount>& takes) const {
   return !axes_.path_is_held && axes_.path.slowing_for == motion::Cause::none && axes_.path.run.queued() <= 1;
 }
 
-/// Appends a path without slowing down, whatever the corner; its own feed applies from now on.
+/// Appends a path without slowing down, whatever the corner. From now on, its own feed applies.
 void Paths::join_path(const PathPlan& plan) {
   const Settings settings = registers();
   motion::Point max;

@@ -31,13 +31,13 @@ class Paths : protected Chips {
   Paths(AxisParts& parts, PathState& state)
       : Chips(parts.chips), parts_(parts), state_(state), backlash_(parts.chips, state) {}
 
-  /// Returns the grant that the axes of a path get together.
+  /// Returns what the axes of a path are granted together.
   Grant ask_for_path(const std::array<bool, kAxisCount>& takes);
-  /// Returns true if the path has begun; if not, it reports its error.
+  /// Returns true if the path has begun; otherwise, reports its error.
   bool begin_path(const PathPlan& plan);
   /// Returns true if a new path continues the current one (D9005).
   bool joins_paths() const;
-  /// Returns true if the current path can take one more piece with the same axes.
+  /// Returns true if the current path has room for another piece with the same axes.
   bool has_room_on_path(const std::array<bool, kAxisCount>& takes) const;
   void join_path(const PathPlan& plan);
   /// Returns where the next LIN or arc begins.
@@ -46,15 +46,15 @@ class Paths : protected Chips {
 
   void hold_path();
   void resume_path();
-  /// Executes VDRV 0: slows down by the path's ramp, and ends.
+  /// Executes VDRV 0: slows down by the path's ramp and ends.
   void slow_path();
   void stop_path();
-  /// Stops all axes of the path for `why`; path_ended() follows.
+  /// Stops all axes of the path because of `why`. path_ended() is called afterwards.
   void break_off(motion::Cause why) { axes_.path.stop(axes_.chips, why); }
   void slow_path_for(motion::Cause why) { axes_.path.slow_down(now(), why); }
   void step_axes(Tick tick, std::array<std::int64_t, kAxisCount>& sent);
-  /// Called when the path has arrived, or an axis of it has met something. Returns what has ended the program
-  /// that waits for it.
+  /// Called when the path has arrived, or one of its axes has encountered an obstacle. Returns what has ended
+  /// the program that is waiting for the path.
   std::optional<motion::Cause> path_ended();
 
  private:

@@ -81,7 +81,7 @@ std::string why_not_file_name(const std::string& name) {
 }
 
 std::string why_not_listing(const std::string& text) {
-  // The most tolerant options apply, whatever is chosen.
+  // The most tolerant options apply, regardless of the choices.
   language::Options options;
   options.choose(language::option("cj_without_group", "takes_the_last_result"));
   options.choose(language::option("capacity_unit", "lines"));

@@ -1,4 +1,4 @@
-// Loads programs, and replaces them by those of a file or of the user table.
+// Loads programs, and replaces them with those of a file or of the user table.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -46,7 +46,7 @@ void Programs::make_programs_ready() {
   const auto texts = state_.blocks.all().find(kPrograms);
   ready_texts_ = texts == state_.blocks.all().end() ? NamedBlocks::mapped_type{} : texts->second;
   ProgramMachine machine(*this, controls_);
-  std::set<std::int32_t> labels;  // labels of earlier areas, if labels belong to the first area
+  std::set<std::int32_t> labels;  // labels of earlier areas, if a label belongs to the first area
   for (const language::AreaRow& row : language::kAreas) {
     const language::AreaProgram program =
         stored_.area(kPrograms, row.name, row.area).value_or(language::AreaProgram{.base = row.base});
@@ -92,7 +92,7 @@ void Programs::load_program(std::string_view text) {
   stored_.store(*checked.program);
   make_programs_ready();
   if (has_plc && runs) plc_to_run();
-  // Labels may belong to areas that the text does not name.
+  // Labels may belong to areas that the text does not contain.
   const language::Checked all = options_.chose(language::option("label_scope", "the_first_area_has_it"))
                                     ? stored_.check(stored_.program_text())
                                     : language::Checked{};
@@ -104,7 +104,7 @@ void Programs::load_program(std::string_view text) {
   ground_.touch();
 }
 
-/// Prepares an area for a new program: only the axes that the old one moves stop.
+/// Prepares an area for a new program: only the axes that the old program moves stop.
 void Programs::give_up_program(language::Area area) {
   controls_.moves.stop_all_of(static_cast<Mover>(area));
   ProgramMachine machine(*this, controls_);

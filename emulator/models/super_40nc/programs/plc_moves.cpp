@@ -20,7 +20,7 @@ namespace understudy::emulator::models::super_40nc {
 
 using language::Area;
 
-/// Returns true if, under the chosen option, no axis may start because one of them is in use.
+/// Returns true if, because of a choice, no axis may start when one of them is in use.
 bool ProgramMachine::plc_takes_none(language::AxisSet axes, Request request) {
   if (!chose(option("plc_several_axes", "none"))) return false;
   for (int axis = 0; axis < kAxisCount; ++axis) {
@@ -69,7 +69,7 @@ bool ProgramMachine::plc_jog(const language::Jogs& jogs, const language::JogStep
     const bool positive = ((is_swapped ? jogs.negative : jogs.positive) >> axis & 1) != 0;
     const bool negative = ((is_swapped ? jogs.positive : jogs.negative) >> axis & 1) != 0;
     const int running = state.asked_by_plc ? chip(axis).last_direction : 0;
-    // If both are requested at once, the running direction continues.
+    // If both directions are requested at once, the running direction continues.
     const int of_both = stops_both ? 0 : running;
     const int direction = positive && negative ? of_both : positive ? +1 : negative ? -1 : 0;
     if (running != 0 && running != direction) {

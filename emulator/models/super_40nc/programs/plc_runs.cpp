@@ -1,4 +1,4 @@
-// The PLC: RUN and STOP, its scans, and the ticks in which it needs none.
+// The PLC: RUN and STOP, its scans, and the ticks that need no scan.
 #include <algorithm>
 #include <cstddef>
 #include <span>
@@ -22,7 +22,7 @@
 
 namespace understudy::emulator::models::super_40nc {
 
-/// Handles "plc 初始": programs that do not run start from the beginning.
+/// Handles "plc 初始": programs that are not running start from the beginning.
 void Programs::plc_to_run() {
   ProgramMachine machine(*this, controls_);
   language::run(state_.plc, *ladder_, machine, options_);
@@ -46,7 +46,7 @@ void Programs::plc_to_stop() {
   std::fill(outputs.begin(), outputs.end(), 0U);
 }
 
-/// Clears values and contacts of timers that are not latched.
+/// Clears the values and contacts of timers that are not latched.
 void Programs::clear_timers() {
   for (int i = 0; i < kTimers; ++i) {
     ground_.put({.slot = stored_at(Table::coil, kFirstTimerContact).slot + static_cast<std::size_t>(i)}, 0);
@@ -59,7 +59,7 @@ void Programs::run_plc() {
   language::StepPrograms steps(state_.steps, codes_, machine, options_);
   const auto ladder = ladder_;
   if (!ladder->is_empty() && state_.plc.runs) {
-    // A scan that changed nothing, and had no new input, would do the same again.
+    // A scan that changed nothing, and has no new input, would do the same again.
     notify_watch();
     const bool was_told = ground_.state().touched;
     const language::Scanned scanned = language::scan(state_.plc, *ladder, machine, steps, options_);
@@ -81,7 +81,7 @@ void Programs::begin_first_scan() {
 
 void Programs::fast_forward(Tick done, Tick tick) {
   if (!plc_scans()) return;
-  // The number of these ticks that have a scan: see scans_in().
+  // The number of these ticks that contain a scan; see scans_in().
   const Tick each = std::max<Tick>(scan_ms(options_), 1);
   const Tick before_first = std::clamp(state_.flash_until - 1, done, tick);
   const Tick scans = tick / each - before_first / each;

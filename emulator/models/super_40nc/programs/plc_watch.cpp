@@ -20,7 +20,7 @@ void PlcWatch::find(const interpreter::super_40nc::Ladder& ladder) {
     Place place;
     if (read.letter == Letter::x) {
       place = bank_.at(Table::discrete, static_cast<std::uint16_t>(read.number));
-    } else if (read.letter == Letter::y) {  // signals come and go
+    } else if (read.letter == Letter::y) {  // signals appear and disappear
       place = bank_.at(Table::coil, static_cast<std::uint16_t>(read.number));
     } else if (is_special(read)) {
       place = read.letter == Letter::m ? bank_.at(Table::coil, relay_address(read.number))
@@ -39,7 +39,7 @@ void PlcWatch::note() {
 }
 
 bool PlcWatch::is_as_seen() const {
-  bool is_same = seen_.size() == places_.size();  // otherwise the ladder has been replaced
+  bool is_same = seen_.size() == places_.size();  // otherwise, the ladder was replaced
   for (std::size_t i = 0; is_same && i < places_.size(); ++i) {
     is_same = read_value(bank_, places_[i]) == seen_[i];
   }

@@ -1,6 +1,7 @@
 // Decides whether a PLC that has settled needs to scan. A scan that has changed nothing would do the same
-// again until something that it reads changes. Writes by hosts and step programs are noted; other values are
-// checked in each tick that is run. In skipped ticks only moving values change, as their rows say (Varies).
+// again until something that it reads changes. Writes by hosts and step programs are recorded; other values
+// are checked in each tick that is run. In skipped ticks, only moving values change, as indicated in their
+// rows (Varies).
 #pragma once
 
 #include <vector>
@@ -16,21 +17,21 @@ class PlcWatch {
  public:
   explicit PlcWatch(const RegisterBank& bank) : bank_(bank) {}
 
-  /// Finds the values that the ladder reads and that others change without notice.
+  /// Finds the values that the ladder reads and that may change without a recorded write.
   void find(const interpreter::super_40nc::Ladder& ladder);
-  /// Remembers what the PLC sees now.
+  /// Records what the PLC sees now.
   void note();
-  /// Returns true if everything is as it was recorded.
+  /// Returns true if everything is still as recorded.
   bool is_as_seen() const;
-  /// Returns true if some of it changes with an axis's pulses.
+  /// Returns true if some of the values change with an axis's pulses.
   bool some_move() const { return some_move_; }
 
  private:
   const RegisterBank& bank_;
-  // Working values; none of them is state.
+  // Working data, not part of the state.
   std::vector<Place> places_;
   bool some_move_ = false;
-  std::vector<Value> seen_;  // values that the PLC saw in the current tick
+  std::vector<Value> seen_;  // values that the PLC saw in this tick
 };
 
 }  // namespace understudy::emulator::models::super_40nc

@@ -1,4 +1,4 @@
-// The locations of the programs, for observers.
+// The current locations of the programs, for observers.
 #include <cstddef>
 #include <string>
 #include <string_view>
@@ -24,7 +24,8 @@ namespace {
 
 namespace language = interpreter::super_40nc;
 
-/// Returns the first line of a listing that begins this way, after an area's head; 0 if there is none.
+/// Returns the first line of a listing that begins in this way, after the head of an area, or 0 if there is
+/// none.
 int line_of_step(std::string_view text, std::string_view area, const std::string& begin) {
   const std::string head = "AREA " + std::string(area);
   bool is_inside = false;
@@ -65,7 +66,7 @@ std::vector<ProgramLocation> Programs::program_locations() const {
     if (is_of_error && !place.why.empty() && !language::leaves_program_running(ground_.state().error.code)) {
       place.state = ProgramLocation::State::failed;
     }
-    // The line is the present one, or the one that stopped the program.
+    // The line is the current one, or the line that stopped the program.
     const int at =
         is_of_error ? ground_.state().error.step - language::base_of(row.area, options_) : step.step;
     const auto listed = [&](int number) {
@@ -100,7 +101,7 @@ std::vector<ProgramLocation> Programs::program_locations() const {
   return all;
 }
 
-/// Returns the location of the PLC. It has no present line: each scan runs all of them.
+/// Returns the location of the PLC. It has no current line, because each scan runs all lines.
 ProgramLocation Programs::plc_location() const {
   ProgramLocation place;
   place.program = language::row_of(language::Area::plc).name;

@@ -69,7 +69,7 @@ bool ProgramMachine::set_special_contact(int number, bool on) {
 
 std::int32_t ProgramMachine::special_register(int number) const {
   Place place = controls_.bank.at(Table::holding, data_address(number));
-  place.part = Place::Part::whole;  // both words on the wire
+  place.part = Place::Part::whole;  // both words on the line
   return static_cast<std::int32_t>(read_value(controls_.bank, place));
 }
 
@@ -248,7 +248,7 @@ Begun ProgramMachine::begin(Area by, const language::WheelRatios& ratios) {
   return Begun::done;
 }
 
-// ---- what runs
+// ---- running motions
 
 bool ProgramMachine::is_running(Area by) const { return is_awaited_by(mover_of(by)); }
 

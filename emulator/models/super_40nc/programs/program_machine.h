@@ -1,4 +1,5 @@
-// A SUPER-40NC as its programs see it: contacts and registers as a host writes them, and motions as values.
+// A SUPER-40NC as its programs see it: contacts and registers as a host would write them, and motions as
+// values.
 #pragma once
 
 #include <functional>
@@ -66,7 +67,8 @@ class ProgramMachine final : public language::Machine, protected Chips {
   AxisState& state_of(int axis) { return Chips::axis(axis); }
   const AxisState& state_of(int axis) const { return Chips::axis(axis); }
   bool plc_takes_none(language::AxisSet axes, Request request);
-  /// Begins a motion on each free axis of a line, and reports the others. Begins none while one has to wait.
+  /// Begins a motion on each free axis of a line, and reports the others. Begins none if one of them must
+  /// wait.
   template <class Start>
   language::Begun begin_each(language::Area by, const language::AxisValues& values, Request request,
                              Start start);
@@ -76,7 +78,8 @@ class ProgramMachine final : public language::Machine, protected Chips {
   language::Begun begin_on_path(const std::array<bool, kAxisCount>& takes,
                                 const std::array<std::int64_t, kAxisCount>& target_lu, std::int32_t feed,
                                 int mode, const Geometry& geometry);
-  /// Skips an impossible arc. With `reports`, also reports it, or begins a line instead, if so chosen.
+  /// Skips an impossible arc. With `reports`, also reports it or (depending on a choice) begins a line
+  /// instead.
   language::Begun begin_arc(const ArcFrame& frame, std::int32_t feed, int mode, bool reports,
                             const Geometry& geometry);
   ArcFrame frame_of(language::Plane plane, language::Targets targets, const language::PlanePoint& end) const;

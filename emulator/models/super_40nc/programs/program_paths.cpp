@@ -1,4 +1,4 @@
-// The geometry of LIN and arcs of programs (《LIN 指令》, 《CW , CCW 指令》, 《C3P 指令》, 《CWR , CCWR
+// The geometry of LIN and arcs in programs (《LIN 指令》, 《CW , CCW 指令》, 《C3P 指令》, 《CWR , CCWR
 // 指令》).
 #include <array>
 #include <cmath>
@@ -30,7 +30,7 @@ namespace {
 constexpr int kModeLine = 0x61;
 constexpr int kModeClockwise = 0x64;
 constexpr int kModeCounterClockwise = 0x65;
-/// End points up to this far off the circle are accepted.
+/// An end point is accepted if it is at most this far off the circle.
 constexpr double kOffCircleLu = 10;
 
 }  // namespace
@@ -97,7 +97,7 @@ struct ProgramMachine::ArcFrame {
   std::array<std::int64_t, kAxisCount> base_lu{};
   std::array<std::int64_t, kAxisCount> offset_lu{};
 
-  /// Returns a point in the machine coordinate.
+  /// Converts a point in the plane to the machine coordinate.
   motion::Point place(const std::array<double, 2>& lu) const {
     motion::Point point = motion::Point::Zero();
     point[axes[0]] = lu[0];
@@ -145,7 +145,7 @@ Begun ProgramMachine::begin_arc(const ArcFrame& frame, std::int32_t feed, int mo
   }
 }
 
-/// Returns the turn in a plane, which C24 to C26 swap. Seen from the third axis, Z comes before X.
+/// Returns the turn in a plane, which C24 to C26 can swap. Seen from the third axis, Z comes before X.
 motion::Turn ProgramMachine::turn_of(language::Turn turn, language::Plane plane) const {
   const std::array<StoredRegister, 3> swaps{stored_d(d9::kSwapXy), stored_d(d9::kSwapXz),
                                             stored_d(d9::kSwapYz)};
@@ -185,7 +185,8 @@ Begun ProgramMachine::begin(Area, const language::PointArc& arc) {
                    });
 }
 
-/// Returns the radius; one that is too small for its chord becomes that of a half circle, if that is chosen.
+/// Returns the radius. Depending on a choice, a radius that is too small for its chord is replaced with that
+/// of a half circle.
 double ProgramMachine::radius_for(std::int32_t radius_lu, const motion::Point& from,
                                   const motion::Point& to) const {
   constexpr double kNoLess = 1 + 1e-12;  // at least half the chord, despite rounding

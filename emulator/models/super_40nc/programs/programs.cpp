@@ -1,4 +1,4 @@
-// The events that step programs receive, and what they show.
+// The events for step programs, and the registers that show the programs' state.
 #include "emulator/models/super_40nc/programs/programs.h"
 
 #include <algorithm>
@@ -30,7 +30,7 @@ void Programs::broken(const Broken& broken) {
   controls_.moves.break_program(broken.mover, broken.axis);
   const auto area = static_cast<language::Area>(broken.mover);
   const language::Phase phase = state_.steps.programs[language::index_of(area)].phase;
-  // A motion outside the lines also resets a running program; a program that has ended is left alone.
+  // A motion outside the lines also resets a running program, but not a program that has ended.
   const bool runs_on = !broken.is_awaited && phase != language::Phase::idle;
   const bool is_limit = why == motion::Cause::limit_plus || why == motion::Cause::limit_minus;
   const bool is_soft = why == motion::Cause::soft_limit_plus || why == motion::Cause::soft_limit_minus;
@@ -46,7 +46,7 @@ void Programs::broken(const Broken& broken) {
 
 void Programs::path_broken(motion::Cause why) {
   const language::Phase phase = state_.steps.programs[0].phase;
-  // A program that is joining paths does not wait for this one.
+  // A program that is joining paths is not waiting for this one.
   const bool is_awaited = phase == language::Phase::moving || phase == language::Phase::held;
   broken({.is_awaited = is_awaited, .why = why});
 }
@@ -62,7 +62,7 @@ void Programs::notify_watch() const {
 
 namespace {
 
-/// Hides C from an observer while it runs a user table, which nobody has downloaded.
+/// Hides C from an observer while C runs a user table, which nobody has downloaded.
 class WithoutC final : public ProgramWatch {
  public:
   explicit WithoutC(ProgramWatch& watch) : watch_(watch) {}
@@ -89,7 +89,7 @@ void Programs::run_steps() {
     machine.set_watch(&without_c.emplace(*watch()));
   }
   language::StepPrograms(state_.steps, codes_, machine, options_).run_slices();
-  state_.plc_quiet_scans = 0;  // the step programs may have written what the PLC reads
+  state_.plc_quiet_scans = 0;  // the step programs may have written values that the PLC reads
 }
 
 bool Programs::are_busy() const {

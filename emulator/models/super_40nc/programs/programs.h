@@ -50,35 +50,35 @@ class Programs : protected Chips, public Watched {
   const StoredPrograms& stored() const { return stored_; }
 
   // --- loading.cpp
-  /// Loads a listing. Areas that it does not name stay as they are. A refused listing is reported in D8094 to
+  /// Loads a listing. Areas that it does not contain do not change. A refused listing is reported in D8094 to
   /// D8096.
   void load_program(std::string_view text);
   void make_programs_ready();
-  /// Prepares the programs of a restored state, if they differ.
+  /// Prepares the programs of a restored state if they differ.
   void restored();
   /// Changes the path file (D9001).
   void change_file(std::int32_t number);
   /// Applies a command of D8020: the user table, or a line of it.
   void take_user_command(std::int32_t number);
-  /// Restores C's own program when the table is over.
+  /// Restores C's own program when the table has ended.
   void leave_table();
   /// Returns D8019, the line of the user table.
   std::int32_t table_line() const;
 
   // --- programs.cpp
   void handle(interpreter::super_40nc::Event event, Area area);
-  /// Handles a program's motion that was cut off, for example at a limit: unless the program has ended,
-  /// resets it or, if so chosen, pauses it.
+  /// Handles a program's motion that was cut off, for example at a limit. Unless the program has ended,
+  /// resets it or (depending on a choice) pauses it.
   void broken(const Broken& broken);
   void path_broken(motion::Cause why);
-  /// Executes a slice of each step program, if one of them is busy.
+  /// Runs a slice of each step program, if at least one of them is busy.
   void run_steps();
   bool are_busy() const;
   /// Returns the state of M8022.
   bool is_pausing() const;
   /// Sets D8000 or D8x00. Programs are numbered in the order of their areas.
   void set_pointer(int program, std::int32_t step);
-  /// Returns what D8000 and D8x00 add to the area's own step number.
+  /// Returns the number that D8000 and D8x00 add to the step number within the area.
   int shown_base(std::size_t program) const;
   /// Returns D8000 or D8x00.
   std::int32_t shown_step(std::size_t program) const;
@@ -93,21 +93,21 @@ class Programs : protected Chips, public Watched {
   void run_plc();
   bool plc_scans() const { return !ladder_->is_empty() && state_.plc.runs; }
   bool scans_in(Tick tick) const;
-  /// Returns the ticks in which the PLC needs no scan, if nothing that it reads changes.
+  /// Returns the number of ticks in which the PLC needs no scan, if nothing that it reads changes.
   Tick quiet_scans(bool moves) const;
   void note_what_plc_sees() { watch_.note(); }
-  /// Checks at the end of a tick whether the PLC must scan.
+  /// Called at the end of a tick. Checks whether the PLC must scan.
   void wake_plc_by_what_changed();
-  /// Does the scans of the skipped ticks after `done`, up to `tick`.
+  /// Performs the scans of the skipped ticks after `done`, up to `tick`.
   void fast_forward(Tick done, Tick tick);
 
  private:
-  /// A scan keeps the ladder that it began with, even if the device's ladder is replaced meanwhile.
+  /// A scan keeps the ladder with which it began, even if the device's ladder is replaced in the meantime.
   using SharedLadder = std::shared_ptr<const interpreter::super_40nc::Ladder>;
 
   void give_up_program(Area area);
   void put_table_in_place();
-  /// Notifies an observer of the existing programs.
+  /// Notifies the observer of the existing programs.
   void notify_watch() const;
   void clear_timers();
 
@@ -116,7 +116,8 @@ class Programs : protected Chips, public Watched {
   const interpreter::super_40nc::Options& options_;
   StoredPrograms stored_;
   PlcWatch watch_;
-  interpreter::super_40nc::StepCodes codes_;  // not state: made, like the ladder, from the memory's listings
+  interpreter::super_40nc::StepCodes
+      codes_;  // not state: compiled, like the ladder, from the memory's listings
   SharedLadder ladder_ = std::make_shared<const interpreter::super_40nc::Ladder>();
   NamedBlocks::mapped_type ready_texts_;  // the texts of codes_ and ladder_
   std::vector<int> table_lines_;          // lines of the user table, while it runs

@@ -33,7 +33,7 @@ namespace language = interpreter::super_40nc;
 
 namespace {
 
-/// Writes one area as text, as it is stored.
+/// Returns an area as text, in the form in which it is stored.
 std::string text_of_area(language::Area area, const language::AreaProgram& program) {
   language::Program alone;
   alone.areas[language::index_of(area)] = program;
@@ -65,7 +65,7 @@ void StoredPrograms::show_line_counts() {
   }
 }
 
-/// Returns the options with the capacity of C and of each file.
+/// Returns the options, including the capacity of C and of each file.
 language::Options StoredPrograms::options_with_room() const {
   language::Options options = options_;
   if (registers().raw(stored_d(d9::kLinesOfAFile)) > 0)
@@ -111,7 +111,7 @@ void StoredPrograms::store(const language::Program& program) {
   }
 }
 
-/// Copies a text; if it does not exist, erases the target.
+/// Copies a text. If the text does not exist, erases the target.
 void StoredPrograms::copy(std::string_view from, const std::string& from_name, std::string_view to,
                           const std::string& to_name) {
   const SharedText* const text = state_.blocks.find(from, from_name);
@@ -124,7 +124,7 @@ void StoredPrograms::copy(std::string_view from, const std::string& from_name, s
 
 void StoredPrograms::change_c(std::int32_t number) {
   const std::string c(language::row_of(language::Area::c).name);
-  // A file that was too long to load stays unchanged.
+  // A file that was too long to load does not change.
   if (!state_.file_is_left_out) copy(kPrograms, c, kFiles, std::to_string(state_.file));
   state_.file_is_left_out = is_too_long(kFiles, std::to_string(number));
   if (state_.file_is_left_out) {
@@ -150,7 +150,7 @@ std::vector<ProgramPart> StoredPrograms::parts_of(std::string_view text) const {
         parts.emplace_back(ProgramPart{.number = static_cast<int>(area), .name = name, .lines = {}});
     for (std::size_t i = 0; i < program.lines.size(); ++i) {
       const language::Instruction& line = program.lines[i];
-      // A PLC skips a NOP when it is compiled.
+      // A NOP in the PLC is skipped during compilation.
       const bool is_left_out = area == Area::plc && line.op == language::Op::nop;
       part.lines.push_back({.text_line = is_left_out ? 0 : text_lines[i],
                             .code = language::text_of(line),
@@ -200,14 +200,14 @@ void StoredPrograms::flash_written(bool is_recipe) {
   if (chose(option("flash_time", "100_ms_without_a_scan"))) state_.flash_until = now() + 1 + kFlashTicks;
 }
 
-/// Returns the first register of a recipe, which extends to D999; three places in the manual give three
+/// Returns the first register of a recipe, which extends to D999. Three places in the manual contain three
 /// different ranges.
 int StoredPrograms::first_of_recipe() const {
   if (chose(option("recipe_range", "d800_to_d999"))) return 800;
   return chose(option("recipe_range", "d900_to_d999")) ? 900 : kFirstOfRecipe;
 }
 
-/// Loads a recipe into its registers; a recipe that was never stored is all 0.
+/// Loads a recipe into its registers. A recipe that was never stored consists of zeros.
 void StoredPrograms::take_recipe(std::int32_t number) {
   const int first = first_of_recipe();
   const auto count = static_cast<std::size_t>(kLastOfRecipe - first) + 1;
@@ -262,7 +262,7 @@ void StoredPrograms::show_capacities() {
   ground_.put(stored_d(d9::kFileCount), kAllSteps / lines);
 }
 
-/// Returns the capacity of C and of each file, in steps or, if so chosen, in lines.
+/// Returns the capacity of C and of each file, in steps or (depending on a choice) in lines.
 std::int32_t StoredPrograms::room_of_c() const {
   constexpr std::int32_t kStepsOfC = 1500;
   if (chose(option("file_layout", "always_20_files"))) return kStepsOfC;

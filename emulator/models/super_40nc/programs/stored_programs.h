@@ -1,4 +1,5 @@
-// The flash of a SUPER-40NC: its programs, path files and recipes, each a text (files.h), and their capacity.
+// The flash of a SUPER-40NC: programs, path files and recipes, all of which are texts (files.h), and their
+// capacity.
 #pragma once
 
 #include <cstdint>
@@ -25,30 +26,31 @@ class StoredPrograms : protected OnGround {
   std::string program_text() const;
   /// Returns the errors of `text` as a program.
   std::vector<ProgramMistake> mistakes_in(std::string_view text) const;
-  /// Returns the warnings about `text`: it loads, but something is odd.
+  /// Returns the warnings about `text`, which loads although something is odd.
   std::vector<ProgramMistake> warnings_about(std::string_view text) const;
   interpreter::super_40nc::Checked check(std::string_view text) const;
-  /// Returns the areas of `text`, and its files as programs of area C, for observers.
+  /// Returns the areas in `text`, and its files as programs for area C. For observers.
   std::vector<ProgramPart> parts_of(std::string_view text) const;
-  /// Returns the program of an area that is stored under this kind and name, or nothing.
+  /// Returns the program that is stored under this kind and name, or nothing.
   std::optional<interpreter::super_40nc::AreaProgram> area(std::string_view kind, std::string_view name,
                                                            Area area) const;
-  /// Stores the areas and files that a program has; an empty area is erased.
+  /// Stores the areas and files of a program. An empty area is erased.
   void store(const interpreter::super_40nc::Program& program);
-  /// Returns true if a stored program is longer than the capacity of C.
+  /// Returns true if a stored program exceeds the capacity of C.
   bool is_too_long(std::string_view kind, std::string_view name) const;
-  /// Stores the C program as the present file, and replaces it by the program of file `number`. A file that
+  /// Stores the C program as the present file, and replaces it with the program in file `number`. A file that
   /// is too long is reported and leaves C empty.
   void change_c(std::int32_t number);
   void flash_written(bool is_recipe);
 
   /// Changes the recipe (D9002).
   void change_recipe(std::int32_t number);
-  /// Reads the stored file and recipe again at power-up, if that is chosen.
+  /// Called at power-up. Reads the stored file and recipe again, if a choice requires it.
   void read_files_again();
   /// Computes D9042 and D9043 from D9045.
   void show_capacities();
-  /// Shows in D9036 to D9042 the steps of the programs, not the capacities, if that is chosen.
+  /// Shows the numbers of steps in the programs in D9036 to D9042, rather than the capacities, if a choice
+  /// requires it.
   void show_line_counts();
 
  private:

@@ -44,7 +44,7 @@ constexpr std::array<CommandRow, 10> kCommands{{{Op::lin, 4},
                                                 {Op::set, 4, true, true},
                                                 {Op::rst, 4, true, true}}};
 
-/// Returns Y, M or M8 at an address; an unset operand if there is none.
+/// Returns the Y, M or M8 at an address, or an unset operand if there is none.
 Operand coil_at(std::uint32_t address) {
   const auto number = static_cast<std::int32_t>(std::min(address, kNoCoil));
   Operand coil;
@@ -56,7 +56,7 @@ Operand coil_at(std::uint32_t address) {
   return language::block_of(coil) != nullptr ? coil : Operand{};
 }
 
-/// Returns the instructions of a line; none if it cannot run.
+/// Returns the instructions of a line, or none if the line cannot run.
 std::vector<Instruction> instructions_of(std::span<const std::uint32_t> line) {
   const std::uint32_t number = line[0];
   if (number < 1 || number > kCommands.size()) return {};
@@ -92,7 +92,7 @@ TableProgram program_of_table(std::span<const std::uint32_t> words) {
   for (; words.size() >= kWordsOfATableLine; ++number, words = words.subspan(kWordsOfATableLine)) {
     if (words[0] == 0) break;
     const std::vector<Instruction> instructions = instructions_of(words);
-    // a program needs at least one line
+    // A program needs at least one line.
     if (instructions.empty() && number == 0) add({.op = Op::nop}, number);
     if (instructions.empty()) return made;
     for (const Instruction& each : instructions) add(each, number);

@@ -1,4 +1,4 @@
-// Short names of the confidence levels of a choice, for the rows of a SUPER-40NC.
+// Short names for the confidence levels of choices, for the rows of a SUPER-40NC.
 #pragma once
 
 #include "base/choices.h"

@@ -1,5 +1,5 @@
 // SUPER-40NC: what its manual leaves open, and what we chose. docs/fidelity/super-40nc.md is generated from
-// these rows; a bench overrides one with `choices: { ID: OPTION }`.
+// these rows, and a bench can override a row with `choices: { ID: OPTION }`.
 #pragma once
 
 #include <array>
@@ -26,7 +26,7 @@ inline constexpr auto kChoices = [] {
   return all;
 }();
 
-/// The place of the languages' rows in the table.
+/// The position of the languages' rows in the table.
 inline constexpr std::size_t kFirstOfLanguages = std::size(kRegisterChoices);
 
 }  // namespace understudy::emulator::models::super_40nc

@@ -1,4 +1,4 @@
-// SUPER-40NC: choices about the wire, contacts, registers, terminals and parameters.
+// SUPER-40NC: choices about the line, contacts, registers, terminals and parameters.
 #pragma once
 
 #include "base/choices.h"

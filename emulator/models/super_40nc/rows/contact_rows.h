@@ -11,7 +11,7 @@ namespace understudy::emulator::models::super_40nc {
 
 inline constexpr int kInputCount = 48;
 inline constexpr int kOutputCount = 32;
-inline constexpr int kTimers = 56;  // those that are not latched; 8 others follow
+inline constexpr int kTimers = 56;  // timers that are not latched; 8 latched ones follow
 // Addresses on the wire.
 inline constexpr std::uint16_t kFirstTimerContact = 600;
 inline constexpr std::uint16_t kFirstCounterContact = 800;
