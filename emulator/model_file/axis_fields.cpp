@@ -76,11 +76,11 @@ int read_input(const YamlFields& field, const Description& description) {
              suggestion(field.text(), names, "the model has no `inputs`"));
 }
 
-/// A key, and another key that it requires.
+/// A key that requires another key.
 struct Need {
   std::string_view key;
   std::string_view needed;
-  std::string_view instead{};  // can replace `needed`
+  std::string_view instead{};  // a key that can replace `needed`
 };
 constexpr std::array<Need, 10> kNeeds{{{"start", "target"},
                                        {"start", "speed"},

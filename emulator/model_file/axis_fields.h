@@ -10,7 +10,7 @@
 
 namespace understudy::emulator::model_file {
 
-/// Reads one entry of `axes`. Its inputs must have been read. Collects all errors.
+/// Reads an entry of `axes`. The inputs must already have been read. Collects all errors.
 models::imported::AxisBinding read_axis(const world::YamlFields& fields, const std::string& name,
                                         const models::imported::Description& description, Binder& binder,
                                         world::Diagnostics& diagnostics);

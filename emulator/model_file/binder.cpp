@@ -36,14 +36,14 @@ std::string trimmed(std::string_view text) {
   return std::string(text.substr(begin, text.find_last_not_of(' ') + 1 - begin));
 }
 
-constexpr std::string_view kEquals = " == ";  // names may contain operators without blanks around them
+constexpr std::string_view kEquals = " == ";  // the blanks are needed, because names may contain operators
 
 std::uint32_t mask_of(const Spot& spot) {
   return spot.is_whole() ? ~0U : bits(spot.bit, "", spot.width).mask();
 }
 
-/// Reports the operator of a condition or relation if it is not allowed here (such as '='), or has no spaces
-/// around it.
+/// Reports the operator of a condition or relation if it is not allowed here (such as '='), or if there are
+/// no spaces around it.
 void require_known_sign(const YamlFields& field, const std::string& text,
                         std::initializer_list<std::string_view> known, std::string_view expected,
                         std::string_view example) {
@@ -114,7 +114,7 @@ Condition Binder::condition(const YamlFields& field) const {
     field.fail(understudy::quoted(number) + " is not a number; expected a number, as in COMMAND == 2");
   const ListedRegister& row = listed(made.spot);
   TypeLimits limits = limits_of(row.type);
-  // Shown values may be beyond the list's range, and so may values that are stored unchecked.
+  // Shown values may be outside the list's range, as may values that are stored without a check.
   const bool is_kept_in_range =
       row.ranged && row.access != Access::read && map_.policy().out_of_range != MapPolicy::OutOfRange::stored;
   if (is_kept_in_range)

@@ -1,4 +1,4 @@
-// Binds words of a model file to registers of its list: "STATUS.READY", "COMMAND == 2", "30".
+// Binds texts in a model file to registers in its list: "STATUS.READY", "COMMAND == 2", "30".
 #pragma once
 
 #include <cstdint>
@@ -15,26 +15,26 @@
 
 namespace understudy::emulator::model_file {
 
-/// All functions throw FileError at the field.
+/// All functions throw FileError with the position of the field.
 class Binder {
  public:
-  /// Both must outlive it. The map has the description's registers, without bindings.
+  /// Both arguments must outlive this object. The map contains the description's registers, without bindings.
   Binder(const models::imported::Description& description, const RegisterMap& map)
       : description_(description), map_(map) {}
 
-  /// Returns a register that is read, or bits of it.
+  /// Returns a register (or some of its bits) that is read.
   models::imported::Spot spot(const world::YamlFields& field, const std::string& name) const;
   models::imported::Spot spot(const world::YamlFields& field) const { return spot(field, field.text()); }
 
-  /// Returns where a value is shown to hosts: a flag in one bit or a register, another value in a whole
-  /// register. Registers that show something else already, and registers that hosts write (unless
-  /// `may_be_written`), are refused. `what` is for messages: "A.busy".
+  /// Returns where a value is shown to hosts. Flags are shown in one bit or in a register, other values in a
+  /// whole register. Registers that already show something else are refused, as are registers that hosts
+  /// write (unless `may_be_written`). `what` is for messages: "A.busy".
   models::imported::Spot shown(const world::YamlFields& field, const std::string& name, bool is_flag,
                                const std::string& what, bool may_be_written = false);
 
   /// Reads "CONTROL.0" or "COMMAND == 2".
   models::imported::Condition condition(const world::YamlFields& field) const;
-  /// Like condition(), for one or 16 bits, and for registers that hosts write.
+  /// Like condition(), but only for one or 16 bits of registers that hosts write.
   models::imported::Condition level(const world::YamlFields& field) const;
   models::imported::Condition command(const world::YamlFields& field) const;
   /// Reads a register or a number.
@@ -42,7 +42,7 @@ class Binder {
   models::imported::Quantity quantity(const world::YamlFields& field) const {
     return quantity(field, field.text());
   }
-  /// Reads seconds: a register whose unit in the list is a unit of time, or a duration.
+  /// Reads a time in seconds: either a duration, or a register whose unit in the list is a unit of time.
   models::imported::Quantity time(const world::YamlFields& field) const;
   /// Reads "TEMPERATURE > LIMIT", without setting its spot.
   models::imported::Comparison comparison(const world::YamlFields& field) const;

@@ -20,7 +20,7 @@ std::string without_blanks(std::string_view text) {
   return std::string(text.substr(begin, text.find_last_not_of(" \t\r") + 1 - begin));
 }
 
-/// Returns the most frequent separator of the first line that has any. Titles have none.
+/// Returns the most frequent separator in the first line that contains a separator. Titles contain none.
 char separator_of(std::string_view text) {
   constexpr int kMaxTitles = 20;
   for (int line = 0; line < kMaxTitles && !text.empty(); ++line) {
@@ -107,7 +107,7 @@ class CsvReader {
                     "registers: " + quoted(more) + " follows a quoted cell; expected a separator");
   }
 
-  /// Reads a quoted field. Two quotes in it mean one.
+  /// Reads a quoted field. Two quotes within it stand for one.
   std::string read_quoted(int column) {
     const int line = line_;
     std::string text;
@@ -140,7 +140,7 @@ class CsvReader {
 
 std::vector<CsvRow> parse_csv(const std::string& text, const std::string& file) {
   if (text.find('\n') != std::string::npos) return CsvReader(text, file).read();
-  // Some spreadsheets on a Mac end lines with carriage returns alone.
+  // Some spreadsheet programs on the Mac end lines with only a carriage return.
   std::string lines = text;
   std::ranges::replace(lines, '\r', '\n');
   return CsvReader(lines, file).read();

@@ -7,8 +7,8 @@
 namespace understudy::emulator::model_file {
 
 struct CsvCell {
-  std::string text;  // without the blanks around it, nor the quotes
-  int column = 1;    // where it begins in its line
+  std::string text;  // without surrounding blanks and quotes
+  int column = 1;    // where it begins in the line
 };
 
 struct CsvRow {
@@ -16,9 +16,9 @@ struct CsvRow {
   std::vector<CsvCell> cells;
 };
 
-/// Returns the rows of a text, without empty rows and those that begin with #. The separator is the most
-/// frequent one in the first line that has any: comma, semicolon or tab. A byte order mark is ignored. Throws
-/// FileError with `file` if a quoted field does not end.
+/// Returns the rows of a text, without empty rows and rows that begin with #. The separator (comma, semicolon
+/// or tab) is the most frequent one in the first line that contains a separator. A byte order mark is
+/// ignored. Throws FileError with `file` if a quoted field is not closed.
 std::vector<CsvRow> parse_csv(const std::string& text, const std::string& file);
 
 }  // namespace understudy::emulator::model_file

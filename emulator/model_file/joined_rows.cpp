@@ -27,7 +27,8 @@ namespace {
 
 constexpr int kByte = 8;
 
-/// Returns whether a name says that it is the high one of two halves (true) or the low one (false).
+/// Returns true if a name contains a word for the high half, false if it contains a word for the low half,
+/// and nothing otherwise.
 std::optional<bool> says_high(const std::string& name) {
   constexpr std::array<std::string_view, 8> kHigh{"high", "hi", "h", "upper", "msb", "msw", "hb", "hw"};
   constexpr std::array<std::string_view, 8> kLow{"low", "lo", "l", "lower", "lsb", "lsw", "lb", "lw"};
@@ -69,7 +70,7 @@ std::string other(std::string_view fact, const std::string& there, const std::st
   return "another " + std::string(fact) + " (" + there + ", here " + here + ")";
 }
 
-/// Returns the first fact in which two descriptions of one register contradict each other.
+/// Returns the first difference between two descriptions of a register that contradict each other.
 std::string difference(const DescribedTwice& both) {
   const ListedRegister& whole = both.whole;
   const ListedRegister& again = both.again;
@@ -90,7 +91,7 @@ std::string difference(const DescribedTwice& both) {
   return "";
 }
 
-/// Returns the names of bits of both rows. Throws std::invalid_argument if they share bits.
+/// Returns the bit names of both rows. Throws std::invalid_argument if the rows have bits in common.
 std::vector<BitName> joined_bits(const ListedRegister& whole, const ListedRegister& again) {
   std::vector<BitName> all = whole.bits;
   for (const BitName& bit : again.bits) {

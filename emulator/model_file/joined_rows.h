@@ -1,4 +1,5 @@
-// Joins rows of a list that describe one register: one for reading and one for writing, or one for each byte.
+// Joins rows of a list that describe the same register: one row for reading and one for writing, or one for
+// each byte.
 #pragma once
 
 #include <string>
@@ -8,7 +9,7 @@
 
 namespace understudy::emulator::model_file {
 
-/// A register of the list with the row that described it first, and a later row for the same place.
+/// A register in the list, the first row that described it, and a later row for the same address.
 struct DescribedTwice {
   models::imported::ListedRegister& whole;
   const ListRow& first_row;
@@ -20,14 +21,15 @@ struct DescribedTwice {
   }
 };
 
-/// Returns true if the rows are the high and the low byte of a register.
+/// Returns true if the rows are the high byte and the low byte of a register.
 bool are_bytes(const DescribedTwice& both);
-/// Makes both rows names of bits. Returns what is in the way, or an empty text.
+/// Converts both rows to names of bits. Returns what prevents this, or an empty text.
 std::string join_bytes(const DescribedTwice& both);
-/// Returns true if the later row is the high or the low word of a register with 32 bits, by its name.
+/// Returns true if, according to its name, the later row is the high or the low word of a 32-bit register.
 bool is_word_of(const DescribedTwice& both);
-/// Adds to the register what the later row knows. Returns the first fact in which they differ, such as
-/// "another unit (V, here A)", or an empty text. Then the register has changed.
+/// Adds the properties in the later row to the register. Returns the first property in which they differ,
+/// such as "another unit (V, here A)", or an empty text. In the former case, the register has already
+/// changed.
 std::string join_rows(const DescribedTwice& both);
 
 }  // namespace understudy::emulator::model_file

@@ -31,7 +31,7 @@ using world::YamlFields;
 
 namespace {
 
-/// A function that can be served, and the most registers or bits of one request.
+/// A function that the emulator supports, and the maximum number of registers or bits in a request.
 struct Served {
   std::uint8_t code = 0;
   int max = 1;
@@ -55,7 +55,7 @@ std::uint8_t read_function(const YamlFields& field) {
   field.fail(std::to_string(code) + " is not a supported function; expected one of " + known);
 }
 
-/// Reads how many registers or bits a request may ask for, by its function.
+/// Reads, by function, how many registers or bits a request may contain.
 void read_limits(const YamlFields& field, Line& line) {
   field.require_map();
   const std::vector<Served> all = all_served();
@@ -75,7 +75,7 @@ void read_limits(const YamlFields& field, Line& line) {
   }
 }
 
-/// Reads the objects of the device identification. The objects that every device has are always present.
+/// Reads the objects of the device identification. The mandatory objects are always present.
 void read_identity(const YamlFields& field, Line& line) {
   field.require_keys(kIdentityKeys);
   line.identity.clear();
@@ -94,7 +94,7 @@ void read_identity(const YamlFields& field, Line& line) {
 void read_framing(const YamlFields& field, Line& line) {
   line.is_ascii = read_word(field, kFramingSchema) == 1;
   if (!line.is_ascii) return;
-  line.data_bits = 7;  // the standard's settings, 7E1
+  line.data_bits = 7;  // as in the standard: 7E1
   line.parity = pty::Parity::even;
 }
 

@@ -1,4 +1,4 @@
-// Reads the line and the map of a model file.
+// Reads the line settings and the map policy of a model file.
 #pragma once
 
 #include <string>
@@ -17,7 +17,7 @@ std::size_t read_word(const world::YamlFields& field, const world::Schema& schem
 void read_line(const world::YamlFields& fields, models::imported::Line& line,
                world::Diagnostics& diagnostics);
 void read_policy(const world::YamlFields& fields, MapPolicy& policy, world::Diagnostics& diagnostics);
-/// Returns the name of the register that holds the station number.
+/// Returns the name of the register that stores the station number.
 std::string read_station_register(const world::YamlFields& field, const Binder& binder,
                                   const models::imported::Description& description);
 

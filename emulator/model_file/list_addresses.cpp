@@ -22,7 +22,7 @@ namespace {
 constexpr std::string_view kDecimalDigits = "0123456789";
 constexpr std::string_view kHexadecimalDigits = "0123456789abcdefABCDEF";
 
-/// The tables by the first digit of Modicon's numbers.
+/// The table that the first digit of a Modicon number means.
 constexpr std::array<std::pair<int, Table>, 4> kBlocks{
     {{4, Table::holding}, {3, Table::input}, {1, Table::discrete}, {0, Table::coil}}};
 
@@ -47,7 +47,7 @@ std::optional<std::int64_t> hexadecimal(std::string_view digits) {
   return parse_integer("0x" + std::string(digits));
 }
 
-/// Returns the digits of a number in one of the hexadecimal forms, or nothing.
+/// Returns the digits of a number in a hexadecimal form, or nothing for other forms.
 std::string_view hexadecimal_digits(std::string_view text) {
   constexpr std::array<std::string_view, 6> kBefore{"0x", "0X", "&H", "16#", "x", "X"};
   for (const std::string_view before : kBefore) {
@@ -58,7 +58,7 @@ std::string_view hexadecimal_digits(std::string_view text) {
   return {};
 }
 
-/// Parses "4x0001" and "4:0001". A text that begins with 0x is hexadecimal instead.
+/// Parses "4x0001" and "4:0001". A text that begins with 0x is a hexadecimal number instead.
 std::optional<PrintedAddress> parse_with_block(std::string_view text) {
   if (text.size() < 5 || text[0] < '1' || text[0] > '4') return std::nullopt;
   if (text[1] != 'x' && text[1] != 'X' && text[1] != ':') return std::nullopt;
@@ -78,7 +78,7 @@ std::optional<PrintedAddress> parse_one(std::string_view text, bool is_hexadecim
     return PrintedAddress{.number = *number, .last = *number, .is_hexadecimal = true};
   const auto number = is_hexadecimal ? hexadecimal(text) : decimal(text);
   if (number) return PrintedAddress{.number = *number, .last = *number, .is_hexadecimal = is_hexadecimal};
-  // "HR100", "D100", "%MW100": letters, then a decimal number
+  // "HR100", "D100", "%MW100": letters, followed by a decimal number.
   const std::size_t begin = text.find_first_of(kDecimalDigits);
   if (begin == 0 || begin == std::string_view::npos || begin > 9) return std::nullopt;
   const std::string_view letters = text.substr(0, begin);

@@ -21,8 +21,8 @@ namespace understudy::emulator::model_file {
 
 namespace {
 
-constexpr std::size_t kMaxTitles = 20;  // lines before the headings
-constexpr std::size_t kSampled = 50;    // rows that show what a column holds
+constexpr std::size_t kMaxTitles = 20;  // lines that may precede the headings
+constexpr std::size_t kSampled = 50;    // rows that are examined to determine the contents of a column
 
 /// One meaning that a heading may have.
 struct Claim {
@@ -31,7 +31,7 @@ struct Claim {
   Column column;
 };
 
-/// Returns the cell for a column of a spreadsheet: "A" is the first, and so is "1".
+/// Returns the index of a spreadsheet column: both "A" and "1" are the first column.
 std::optional<std::size_t> cell_of_letters(const std::string& text) {
   if (const auto number = parse_integer(text)) {
     return *number >= 1 ? std::optional(static_cast<std::size_t>(*number - 1)) : std::nullopt;
@@ -60,7 +60,8 @@ bool has_meaning(const CsvRow& row, Column column) {
   });
 }
 
-/// Returns the first row that has headings of addresses and of names, or the first row.
+/// Returns the first row that contains headings for addresses and for names. If there is none, returns the
+/// first row.
 std::size_t find_headings(const std::vector<CsvRow>& rows, const ListReading& reading) {
   for (std::size_t i = 0; i < std::min(rows.size(), kMaxTitles); ++i) {
     const auto has = [&](Column column) {
@@ -95,7 +96,7 @@ class Planner {
     std::stable_sort(claims.begin(), claims.end(),
                      [](const Claim& one, const Claim& other) { return one.rank < other.rank; });
     for (const Claim& claim : claims) take(claim);
-    for (const Claim& claim : claims) {  // if a row has no name, the next best column may have one
+    for (const Claim& claim : claims) {  // if a row has no name, the next best column may contain one
       if (claim.column == Column::name && plan_.columns[claim.cell] == Column::left_out)
         plan_.names.push_back(claim.cell);
     }
@@ -135,7 +136,7 @@ class Planner {
     }
   }
 
-  /// Returns the first text below a heading.
+  /// Returns the first non-empty text below a heading.
   std::string sample(std::size_t cell) const {
     for (std::size_t i = plan_.heading_row + 1; i < std::min(rows_.size(), plan_.heading_row + kSampled);
          ++i) {
@@ -145,7 +146,7 @@ class Planner {
     return {};
   }
 
-  /// Returns false if the text below a heading shows that the heading means something else.
+  /// Returns false if the text below a heading shows that the heading has a different meaning.
   bool suits(std::size_t cell, const Heading& heading) const {
     const std::string text = sample(cell);
     if (text.empty()) return true;

@@ -1,4 +1,4 @@
-// Determines what the columns of a register list mean.
+// Determines the meaning of the columns of a register list.
 #pragma once
 
 #include <cstddef>
@@ -12,21 +12,22 @@
 
 namespace understudy::emulator::model_file {
 
-/// The place of a list: a separate file, or another file in which the list follows line `lines_before`.
+/// The location of a list: a separate file, or another file in which the list begins after line
+/// `lines_before`.
 struct ListPlace {
   std::string file;
   int lines_before = 0;
 };
 
 struct ColumnPlan {
-  std::size_t heading_row = 0;       // rows before it are titles
+  std::size_t heading_row = 0;       // the rows before it are titles
   std::vector<Column> columns{};     // the columns, by cell
-  std::vector<std::size_t> names{};  // the cells of names, the best first
+  std::vector<std::size_t> names{};  // the cells that contain names, the best one first
   bool has_hexadecimal_addresses = false;
   bool operator==(const ColumnPlan&) const = default;
 };
 
-/// Collects all errors. The plan is unusable if there were any.
+/// Collects all errors. If there is an error, the plan is unusable.
 ColumnPlan plan_columns(const std::vector<CsvRow>& rows, const ListReading& reading, const ListPlace& place,
                         world::Diagnostics& diagnostics, Remarks& remarks);
 

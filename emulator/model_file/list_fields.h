@@ -1,4 +1,4 @@
-// Reads the settings for reading a list, from a model file or from flags of `import`.
+// Reads the settings for reading a list, either from a model file or from flags of `import`.
 #pragma once
 
 #include <string>
@@ -12,10 +12,11 @@ namespace understudy::emulator::model_file {
 /// Collects all errors.
 void read_list_fields(const world::YamlFields& fields, ListReading& reading, world::Diagnostics& diagnostics);
 
-/// Parses "address=Reg,name=Tag". Throws std::invalid_argument with what is wrong and what was expected.
+/// Parses "address=Reg,name=Tag". Throws std::invalid_argument, which contains what is wrong and what was
+/// expected.
 void parse_columns(const std::string& text, ListReading& reading);
 
-/// Returns the section `list` of a model file, or an empty text if it is not needed.
+/// Returns the section `list` for a model file, or an empty text if it is not needed.
 std::string list_section(const ListReading& reading, AddressReading addresses);
 
 /// Returns any text as a YAML scalar.

@@ -7,7 +7,7 @@ namespace understudy::emulator::model_file {
 
 namespace {
 
-// clang cannot deduce the type of a plain std::array with this many elements.
+// clang cannot deduce the type of a std::array with this many elements.
 constexpr auto kAllHeadings = std::to_array<Heading>({
     Heading{"table", Column::table, 0},
     Heading{"register type", Column::table, 2},

@@ -17,22 +17,23 @@
 
 namespace understudy::emulator::model_file {
 
-/// The unit that the addresses of a list count: registers on the wire (from 0), registers from 1, or
-/// Modicon's numbers (40001 is holding register 0).
+/// What the addresses in a list count: registers as on the line (from 0), registers from 1, or Modicon
+/// numbers (40001 is holding register 0).
 enum class AddressReading : std::uint8_t { wire, from_one, modicon };
 inline constexpr std::array<std::string_view, 3> kAddressReadings{"wire", "from_one", "modicon"};
 
 /// A user's settings for a list: flags of `import`, or `list` in a model file.
 struct ListReading {
-  std::vector<std::pair<Column, std::string>> columns{};  // the columns and their headings
+  std::vector<std::pair<Column, std::string>> columns{};  // columns, and their headings in the list
   std::optional<AddressReading> addresses{};              // none: wire, unless that is impossible
-  bool guesses_addresses = false;                         // false: uncertain addresses are refused
-  Table table = Table::holding;                           // the table of rows that do not name one
-  std::string encoding{};                                 // the encoding; empty: it is guessed
-  std::vector<Firmware> firmwares{};  // the versions that rows may begin with; empty: any version
+  bool guesses_addresses = false;                         // false: ambiguous addresses are refused
+  Table table = Table::holding;                           // the table for rows that do not specify one
+  std::string encoding{};                                 // empty: the encoding is guessed
+  std::vector<Firmware> firmwares{};  // the versions that rows may specify; empty: any version
 };
 
-/// Collects what a reader had to guess or skip. It keeps the first remark of each kind, and counts the rest.
+/// Collects what a reader had to guess or skip. It keeps the first remark of each kind, and counts the
+/// others.
 class Remarks {
  public:
   void add(const std::string& kind, const FilePlace& place, const std::string& text) {

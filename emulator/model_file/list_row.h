@@ -14,7 +14,7 @@
 
 namespace understudy::emulator::model_file {
 
-/// Remembers the meanings of type words, because a list has few of them and many rows.
+/// Caches the meanings of type words, because a list has many rows but only a few different types.
 class KnownTypes {
  public:
   const std::optional<TypeMeaning>& of(const std::string& word) {
@@ -26,7 +26,7 @@ class KnownTypes {
   std::map<std::string, std::optional<TypeMeaning>> all_;
 };
 
-/// The data that all rows of a list share. It must outlive them.
+/// The data that all rows of a list share. It must outlive the rows.
 struct ListContext {
   const ListReading& reading;
   const ColumnPlan& plan;
@@ -38,7 +38,7 @@ struct ListContext {
 
 class ListRow {
  public:
-  /// Both must outlive it.
+  /// Both arguments must outlive this object.
   ListRow(const CsvRow& row, const ListContext& context);
 
   const ListContext& context() const { return context_; }
@@ -46,12 +46,12 @@ class ListRow {
   bool has(Column column) const { return !text(column).empty(); }
   int line() const { return row_.line + context_.place.lines_before; }
   FilePlace place_of(Column column) const;
-  /// Throws FileError at the column's cell.
+  /// Throws FileError with the position of the column's cell.
   [[noreturn]] void fail(Column column, const std::string& what) const;
-  /// Adds a remark about something ignored or guessed at the column's cell.
+  /// Adds a remark about something that was ignored or guessed, with the position of the column's cell.
   void remark(const std::string& kind, Column column, const std::string& what) const;
   bool yes_or_no(Column column) const;
-  /// Returns the meaning of the cell `type`.
+  /// Returns the meaning of the `type` cell.
   const std::optional<TypeMeaning>& type() const { return context_.types.of(text(Column::type)); }
 
  private:

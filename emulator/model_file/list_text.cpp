@@ -21,11 +21,12 @@ namespace understudy::emulator::model_file {
 
 namespace {
 
-/// The system's names for encodings. Spreadsheets that claim to write Latin-1 write Windows-1252.
+/// The names of encodings in the operating system. Spreadsheet programs that claim to write Latin-1 actually
+/// write Windows-1252.
 constexpr std::array<std::pair<std::string_view, const char*>, 4> kSystemNames{
     {{"utf-16", "UTF-16"}, {"latin-1", "WINDOWS-1252"}, {"big5", "BIG5-HKSCS"}, {"gbk", "GBK"}}};
 
-/// Returns nothing if the bytes are not in this encoding.
+/// Returns nothing if the bytes are not valid in this encoding.
 std::optional<std::string> converted(const std::string& bytes, const char* encoding) {
   iconv_t const converter = iconv_open("UTF-8", encoding);
   if (converter == reinterpret_cast<iconv_t>(-1)) return std::nullopt;  // NOLINT: as POSIX defines it
@@ -48,8 +49,8 @@ std::optional<std::string> converted(const std::string& bytes, const char* encod
 
 bool is_ascii(char c) { return static_cast<unsigned char>(c) < 0x80; }
 
-/// Returns true if letters beyond ASCII are single bytes, as in European languages. Chinese characters take
-/// two bytes.
+/// Returns true if the non-ASCII letters are single bytes, as in European languages. Chinese characters
+/// consist of two bytes.
 bool stand_alone(const std::string& bytes) {
   std::size_t alone = 0;
   std::size_t pairs = 0;
@@ -62,7 +63,7 @@ bool stand_alone(const std::string& bytes) {
   return alone >= pairs;
 }
 
-/// Returns the encoding of a text that is not UTF-8, or nothing if it may be one of several.
+/// Returns the encoding of a text that is not UTF-8, or nothing if several encodings are possible.
 std::optional<std::string_view> guess(const std::string& bytes) {
   const bool has_mark = bytes.starts_with("\xFF\xFE") || bytes.starts_with("\xFE\xFF");
   if (has_mark) return "utf-16";

@@ -1,4 +1,4 @@
-// Converts the text of a list to UTF-8 from any encoding that spreadsheets use.
+// Converts the text of a list to UTF-8 from any encoding that spreadsheet programs use.
 #pragma once
 
 #include <array>
@@ -12,8 +12,9 @@ namespace understudy::emulator::model_file {
 
 inline constexpr std::array<std::string_view, 5> kEncodings{"utf-8", "utf-16", "latin-1", "big5", "gbk"};
 
-/// Returns the text of a list in UTF-8. `encoding` is one of the above, or empty: then it is guessed, with a
-/// remark if it is not UTF-8. Throws FileError if the text is not in that encoding, or if two are possible.
+/// Returns the text of a list in UTF-8. `encoding` is one of the encodings above. If it is empty, the
+/// encoding is guessed, with a remark if it is not UTF-8. Throws FileError if the text is not valid in the
+/// encoding, or if two encodings are possible.
 std::string decode_list(const std::string& bytes, const std::string& encoding, const ListPlace& place,
                         Remarks& remarks);
 

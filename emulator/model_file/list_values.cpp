@@ -29,7 +29,7 @@ std::string_view bare(std::string_view text) {
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-/// Returns the number of characters at the beginning that are a decimal number, or 0.
+/// Returns the length of the decimal number at the beginning of the text, or 0.
 std::size_t length_of_decimal(std::string_view text) {
   std::size_t at = text.starts_with('-') || text.starts_with('+') ? 1 : 0;
   const std::size_t begin = at;
@@ -75,7 +75,7 @@ bool has_decimals(std::string_view text) {
 }
 
 std::optional<std::int64_t> counts_of(const Decimal& value, const Step& step) {
-  // (value - offset) / step, with all numbers as integers in units of the last decimal place.
+  // Computes (value - offset) / step with integers, in units of the last decimal place.
   const int places = std::max({value.places, step.offset.places, step.step.places});
   const auto whole = [&](const Decimal& number) -> std::optional<std::int64_t> {
     std::int64_t made = 0;

@@ -1,5 +1,5 @@
-// Parses the numbers of a list as people print them, in counts or in the unit with decimals, and also ranges
-// and enumerations.
+// Parses the numbers in a list in the form that manuals use, either in counts or, with decimals, in the unit.
+// Also parses ranges and enumerations.
 #pragma once
 
 #include <cstdint>
@@ -16,23 +16,22 @@ struct Decimal {
   std::int64_t digits = 0;
   int places = 0;
 };
-/// Parses "50.00", "-0,5" and "7", and such a number with a unit after it if `may_have_unit`.
+/// Parses "50.00", "-0,5" and "7". If `may_have_unit`, a unit may follow the number.
 std::optional<Decimal> parse_decimal(std::string_view text, bool may_have_unit);
-/// Returns true if a text is a number with decimals: "50.0".
+/// Returns true if a text is a number with decimal places: "50.0".
 bool has_decimals(std::string_view text);
 
-/// The value of one count: counts * step + offset.
+/// The value of a count: counts * step + offset.
 struct Step {
   Decimal step{1, 0};
   Decimal offset{};
-  std::string text{};  // the step as it is written; empty: the list has none
+  std::string text{};  // the step as it is written; empty: the list does not contain one
 };
-/// Returns nothing if no whole number of counts has this value.
+/// Returns nothing if no integer number of counts has this value.
 std::optional<std::int64_t> counts_of(const Decimal& value, const Step& step);
-/// Returns the step that a unit such as "0.01Hz" begins with.
+/// Returns the step at the beginning of a unit, such as in "0.01Hz".
 std::optional<Step> step_of_unit(std::string_view unit);
-/// Returns the step of a scale: "0.1", "x0.1", "/10". A whole number N above 1 means that N counts make one
-/// unit.
+/// Returns the step of a scale: "0.1", "x0.1", "/10". An integer N above 1 means that N counts are one unit.
 std::optional<Step> step_of_scale(std::string_view scale);
 
 /// Returns the two ends of "0..3000", "-5 to 5" or "0-100", as they are written.
@@ -47,7 +46,7 @@ struct NamedValue {
 /// Returns nothing if the text is not an enumeration such as "0: off, 1: on".
 std::optional<std::vector<NamedValue>> parse_enumeration(std::string_view text);
 
-/// Returns digits as binary-coded decimals, or nothing if they do not fit.
+/// Returns the digits in binary-coded decimal, or nothing if they do not fit.
 std::optional<std::int64_t> as_bcd(std::int64_t number, int words);
 
 }  // namespace understudy::emulator::model_file

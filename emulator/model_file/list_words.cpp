@@ -138,7 +138,7 @@ struct TypeWord {
   int words;
   int bits = 0;
 };
-/// Two's complement and IEEE 754; INT has 16 bits, as in PLCs (IEC 61131-3).
+/// Two's complement and IEEE 754. INT has 16 bits, as in PLCs (IEC 61131-3).
 constexpr std::array kTypeWords{
     TypeWord{"u16", TypeKind::number, Type::u16, 1},
     TypeWord{"uint16", TypeKind::number, Type::u16, 1},
@@ -258,7 +258,7 @@ constexpr std::array kTypeWords{
     TypeWord{"字串", TypeKind::text, Type::u16, 0},
 };
 
-/// Returns a word without parts in parentheses, blanks and punctuation: "R/W" is "rw".
+/// Returns a word without parts in parentheses, blanks and punctuation: "rw" for "R/W".
 std::string word_key(std::string_view text) {
   std::string key;
   int depth = 0;
@@ -288,7 +288,7 @@ TypeMeaning meaning_of(const TypeWord& word) {
   return {.kind = word.kind, .type = word.type, .words = word.words, .bits = word.bits};
 }
 
-/// Returns the meaning of a type that says how its words are ordered: "uint32sw".
+/// Returns the meaning of a type that includes its word order: "uint32sw".
 std::optional<TypeMeaning> with_order(std::string_view key) {
   constexpr std::size_t kShortest = 2;
   constexpr std::size_t kLongest = 4;
@@ -303,7 +303,8 @@ std::optional<TypeMeaning> with_order(std::string_view key) {
   return std::nullopt;
 }
 
-/// Returns the meaning of a type with a number: "string16" has 16 characters, "4bit" is a part of a word.
+/// Returns the meaning of a type that includes a number: "string16" has 16 characters, "4bit" is part of a
+/// word.
 std::optional<TypeMeaning> with_number(std::string_view key) {
   constexpr std::string_view kDigits = "0123456789";
   const std::size_t end = key.find_last_not_of(kDigits);

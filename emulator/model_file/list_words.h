@@ -14,7 +14,7 @@
 
 namespace understudy::emulator::model_file {
 
-/// The columns of a list; `left_out` is only for people.
+/// The columns of a list. `left_out` is for information only.
 enum class Column : std::uint8_t {
   table,
   function,
@@ -44,53 +44,54 @@ enum class Column : std::uint8_t {
 };
 inline constexpr std::size_t kColumns = static_cast<std::size_t>(Column::left_out);
 
-/// A heading and one of its meanings, in the form of heading_key(). Lower ranks win; those of rank 0 are the
-/// names of the columns.
+/// A heading and one of its meanings, in the form that heading_key() returns. Lower ranks take precedence;
+/// headings with rank 0 are the names of the columns.
 struct Heading {
   std::string_view key;
   Column column;
   int rank;
 };
 std::span<const Heading> headings();
-/// Returns the name of a column in messages, in `--columns` and in model files.
+/// Returns the name of a column for messages, for `--columns` and for model files.
 std::string_view name_of(Column column);
-/// Returns the column of that name.
+/// Returns the column with that name.
 std::optional<Column> column_called(std::string_view name);
-/// Returns a heading in lower case, without parts in parentheses, with single blanks in place of punctuation.
+/// Returns a heading in lower case, without parts in parentheses, and with single blanks instead of
+/// punctuation.
 std::string heading_key(std::string_view heading);
-/// Returns true if a heading says that its numbers are hexadecimal: "Address (hex)".
+/// Returns true if a heading indicates that its numbers are hexadecimal: "Address (hex)".
 bool says_hexadecimal(std::string_view heading);
 
 using models::imported::WordOrder;
 /// Returns nothing for an unknown word.
 std::optional<WordOrder> order_called(std::string_view word);
 
-/// The meaning of a word for a type. A type that no Type describes, or that has more than two words, is only
-/// stored as words.
+/// The meaning of a type word. Values of a type that no Type describes, or that has more than two words, are
+/// only stored as words.
 struct TypeMeaning {
   enum class Kind : std::uint8_t {
     number,   // one of Type
-    decimal,  // BCD: four digits a word
+    decimal,  // BCD: four digits per word
     text,
     only_words,
-    part,  // some bits of a word
+    part,  // some of the bits of a word
   } kind = Kind::number;
   Type type = Type::u16;
-  int words = 1;  // 0: the list says how many
-  int bits = 0;   // of a part, or of a number that has fewer than 16
+  int words = 1;  // 0: the list specifies the number
+  int bits = 0;   // for a part, or for a number with fewer than 16 bits
   WordOrder order{};
 };
 /// Returns nothing for an unknown word.
 std::optional<TypeMeaning> type_called(std::string_view word);
 
 std::optional<Access> access_called(std::string_view word);
-/// Like table_called(), with the words of lists.
+/// Like table_called(), but with the words that lists use.
 std::optional<Table> listed_table_called(std::string_view word);
-/// Returns the table of a function: "3", "0x03", "FC04", or of the first of several: "3/6/16".
+/// Returns the table of a function ("3", "0x03", "FC04"), or of the first of several functions ("3/6/16").
 std::optional<Table> table_of_function(std::string_view text);
-/// Returns nothing for a text that is neither yes nor no.
+/// Returns nothing for a text that means neither yes nor no.
 std::optional<bool> yes_or_no_called(std::string_view word);
-/// Returns true for the name of an address that the maker reserves: "Reserved".
+/// Returns true if the name means that the maker reserves the address: "Reserved".
 bool is_reserved(std::string_view name);
 
 /// Returns a text in lower case.

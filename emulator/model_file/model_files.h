@@ -1,4 +1,4 @@
-// Makes models from files. The command line passes this object on with the list of models.
+// Creates models from files. The command line passes this object on with the list of models.
 #pragma once
 
 #include <map>
@@ -18,7 +18,7 @@ namespace understudy::emulator::model_file {
 
 class DescribedModels final : public ModelFiles {
  public:
-  /// `house` are the built-in models, whose names are taken.
+  /// `house` contains the built-in models, whose names are taken.
   explicit DescribedModels(ModelList house);
   ~DescribedModels() override;
 

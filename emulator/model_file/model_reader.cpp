@@ -45,7 +45,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// The text of a register list, and its place.
+/// The text of a register list, and its location.
 struct ReadList {
   std::string text;
   ListPlace place;
@@ -53,7 +53,7 @@ struct ReadList {
 
 ReadList read_list(const YamlFields& field, bool may_read, const std::string& encoding,
                    std::vector<FileClaim>& files, Remarks& remarks) {
-  if (field.text().find('\n') != std::string::npos)  // its first line is below the key's line
+  if (field.text().find('\n') != std::string::npos)  // the first line is below that of the key
     return {field.text(), {.file = field.file(), .lines_before = field.line()}};
   if (!may_read) field.fail("is a path; expected the list itself, because a recording contains everything");
   const std::string path = field.path();
@@ -65,7 +65,7 @@ ReadList read_list(const YamlFields& field, bool may_read, const std::string& en
   return {decode_list(*text, encoding, {.file = path}, remarks), {.file = path}};
 }
 
-/// Returns the description as JSON, which is also YAML, with the list in place of its path.
+/// Returns the description as JSON, which is also YAML, with the list instead of its path.
 Json json_of(const YamlFields& fields, const std::string& list, bool is_root) {
   if (fields.is_scalar()) return fields.text();
   if (fields.is_list()) {
@@ -80,7 +80,7 @@ Json json_of(const YamlFields& fields, const std::string& list, bool is_root) {
   return made;
 }
 
-/// Returns the description on one line with a line end, which distinguishes a text from a path.
+/// Returns the description on one line with a line ending, which distinguishes a text from a path.
 std::string whole_text(const YamlFields& root, const std::string& list) {
   const bool has_lines = list.find('\n') != std::string::npos;
   return json_of(root, has_lines ? list : list + "\n", true)
@@ -115,7 +115,7 @@ void read_bits(const YamlFields& field, Description& made, Diagnostics& diagnost
   }
 }
 
-/// Returns a map of registers that have been validated one by one.
+/// Returns a map of the registers, which have been validated individually.
 std::unique_ptr<RegisterMap> plain_map(const Description& made, std::vector<std::vector<BitField>>& fields,
                                        const YamlFields& list) {
   try {
@@ -173,7 +173,7 @@ class ModelReader {
     made_.line.server_id = made_.name;
     read("line", [&](const YamlFields& field) { read_line(field, made_.line, diagnostics_); });
     if (list_is_whole_) diagnostics_.attempt([&] { read_bindings(); });
-    // The text is complete only if everything is correct: an alias may be inside the node that it names.
+    // The text can be completed only if everything is correct, because a node may contain an alias of itself.
     if (diagnostics_.count() == 0) made_.text = whole_text(root_, list_);
     made_.remarks = remarks_.all();
     return std::move(made_);
@@ -195,7 +195,7 @@ class ModelReader {
     if (const auto title = root_.find("title")) made_.title = one_line(title->text());
   }
 
-  /// Reads the keys that name registers. Each register is found in the list, or reported.
+  /// Reads the keys that refer to registers. Each register is either found in the list or reported.
   void read_bindings() {
     std::vector<std::vector<BitField>> fields;
     const auto map = plain_map(made_, fields, root_.at("registers"));

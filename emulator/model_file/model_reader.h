@@ -11,9 +11,10 @@
 
 namespace understudy::emulator::model_file {
 
-/// `name` stands for the file in messages. The list's path is relative to its folder, and refused if
-/// `may_read` is false. `files` receives the list that was read. The description's text is complete,
-/// including the list: reading it gives the same model. Throws FileError with all mistakes.
+/// In messages, `name` is used as the file name. The path of the list is relative to the folder of that file,
+/// and is refused if `may_read` is false. `files` receives the list that was read. The text of the resulting
+/// description is complete and includes the list: reading it creates the same model. Throws FileError with
+/// all mistakes.
 models::imported::Description read_model(const std::string& text, const std::string& name, bool may_read,
                                          std::vector<FileClaim>& files);
 

@@ -1,4 +1,4 @@
-// Declares the keys of a model file (docs/import.md) and the schemas of their values.
+// The keys of a model file (docs/import.md), and the schemas of their values.
 #pragma once
 
 #include <array>
@@ -31,7 +31,7 @@ inline constexpr Schema kMaxSchema = world::integer_schema(1, 2000);
 inline constexpr Schema kMaxByFunctionSchema = world::names_schema(kMaxSchema);
 inline constexpr std::array<std::string_view, 2> kObeysOrIgnores{"obeyed", "ignored"};
 inline constexpr Schema kBroadcastSchema = world::words_schema(kObeysOrIgnores);
-/// The names of the objects of function 43/14, from object 0 on.
+/// The names of the objects of function 43/14, beginning with object 0.
 inline constexpr std::array kIdentityKeys{
     Key{"vendor", "Object 0, the vendor's name.", &world::kText},
     Key{"product", "Object 1, the product code.", &world::kText},
@@ -117,7 +117,7 @@ inline constexpr std::array kAxisInputKeys{
     Key{"alarm", "The input of the drive's alarm.", &world::kText}};
 inline constexpr Schema kAxisInputsSchema = world::keys_schema(kAxisInputKeys);
 
-/// The keys are in the order of imported::Number, then Command, then View, then the rest.
+/// The keys are in the order of imported::Number, then Command, then View, followed by the others.
 inline constexpr std::array kAxisKeys{
     Key{"target", "The target of `start`: a register, or a number.", &world::kText},
     Key{"distance", "The distance of `start_relative`.", &world::kText},

@@ -143,7 +143,7 @@ class ListReader {
     }
   }
 
-  /// Returns false if it is not clear what the addresses count.
+  /// Returns false if it is unclear what the addresses count.
   bool decide_addresses() {
     const auto guessed = reading_.guesses_addresses ? evidence_.likely() : evidence_.certain();
     if (reading_.addresses) {
@@ -244,7 +244,7 @@ class ListReader {
   ColumnPlan plan_;
   KnownTypes types_;
   ListContext context_{reading_, plan_, place_, AddressReading::wire, list_.remarks, types_};
-  std::vector<const CsvRow*> cells_;  // the cells of the rows that are not empty
+  std::vector<const CsvRow*> cells_;  // the cells of non-empty rows
   std::vector<ListRow> read_rows_;    // the same rows after reading
   std::vector<std::optional<PrintedAddress>> printed_;
   AddressEvidence evidence_;

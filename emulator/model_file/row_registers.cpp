@@ -32,7 +32,7 @@ using models::imported::ListedRegister;
 
 namespace {
 
-/// Returns the row's table. `by_address` is the table that the form of its address gives.
+/// Returns the table of the row. `by_address` is the table that follows from the form of its address.
 Table table_of(const ListRow& row, std::optional<Table> by_address) {
   if (row.has(Column::table) && !listed_table_called(row.text(Column::table))) {
     row.fail(Column::table,
@@ -60,14 +60,14 @@ WireAddress address_of(const ListRow& row, const std::optional<PrintedAddress>& 
   row.fail(Column::address, quoted(row.text(Column::address)) + " is not an address; expected " + expected);
 }
 
-/// Returns true for words that mean something else in expressions.
+/// Returns true for words that have another meaning in expressions.
 bool is_taken_word(const std::string& name) {
   constexpr std::array<std::string_view, 7> kWords{"and", "or", "not", "true", "false", "on", "off"};
   return std::find(kWords.begin(), kWords.end(), name) != kWords.end() || table_called(name).has_value();
 }
 
-/// Takes a name as the manual prints it. If expressions or commands cannot contain it, they use one with
-/// other letters. A sign at the beginning would make a flag or a comment of it.
+/// Sets the name as printed in the manual. If expressions or commands cannot contain this name, they use a
+/// name with other letters. (With a sign at the beginning, it would look like a flag or a comment.)
 void read_name(const ListRow& row, ListedRegister& listed) {
   const std::string& name = row.text(Column::name);
   if (name.empty()) row.fail(Column::name, "is missing; expected a name in every row");
@@ -105,7 +105,7 @@ Access access_of(const ListRow& row, Table table) {
   return *access;
 }
 
-/// Returns the first firmware that has the register.
+/// Returns the first firmware version that has the register.
 Firmware since_of(const ListRow& row) {
   if (!row.has(Column::since)) return 0;
   const std::vector<Firmware>& known = row.context().reading.firmwares;
@@ -117,7 +117,7 @@ Firmware since_of(const ListRow& row) {
                " is not a firmware of the model; expected a version listed under `firmware`, such as 1.52");
 }
 
-/// Returns one register for each quantity, or for each word of a type that only holds words.
+/// Returns one register for each quantity, or for each word of a type that is only stored as words.
 std::vector<ListedRegister> spread(const ListRow& row, const RowShape& shape, const ListedRegister& first) {
   if (!shape.holds_only_words() && shape.count == 1) return {first};
   const std::vector<std::uint16_t> words =
@@ -202,7 +202,7 @@ class RowReader {
       attempt([&] { read_factory(row_, shape, listed); });
   }
 
-  /// Returns the bits of a row such as 10.3, or of the type `4bit`.
+  /// Returns the bits of a row with an address such as 10.3, or with the type `4bit`.
   static BitName part_of(const RowShape& shape, const PrintedAddress& printed, const ListedRegister& listed) {
     const int first = std::max(printed.bit, 0);
     const int width = std::clamp(shape.bits == 0 ? 1 : shape.bits, 1, 16 - first);

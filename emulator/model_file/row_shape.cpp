@@ -18,9 +18,10 @@ namespace {
 
 using TypeKind = TypeMeaning::Kind;
 
-constexpr int kMaxWords = 125;  // the limit of one request
+constexpr int kMaxWords = 125;  // the limit for a request
 
-/// Requires that columns agree. A list may say the same thing twice, but not two different things.
+/// Requires that columns are consistent. A list may contain the same information twice, but not contradictory
+/// information.
 void require_agreement(const ListRow& row, Type type) {
   const auto require = [&](Column column, bool agrees) {
     if (!row.has(column) || agrees) return;
@@ -32,7 +33,7 @@ void require_agreement(const ListRow& row, Type type) {
   require(Column::is_signed, type == Type::f32 || row.yes_or_no(Column::is_signed) == is_signed(type));
 }
 
-/// Returns the type that the columns `width`, `signed` and `real` give.
+/// Returns the type that follows from the columns `width`, `signed` and `real`.
 Type plain_type(const ListRow& row, Table table) {
   const std::string& width = row.text(Column::width);
   if (is_table_of_bits(table)) {
@@ -53,7 +54,7 @@ Type plain_type(const ListRow& row, Table table) {
   return has_sign ? Type::s16 : Type::u16;
 }
 
-/// Returns how many words the column `words` gives: "2", "4 bytes", "32 bit". 0: none.
+/// Returns the number of words in the column `words`: "2", "4 bytes", "32 bit". 0: none.
 int words_in_column(const ListRow& row) {
   if (!row.has(Column::words)) return 0;
   const std::string text = lower(row.text(Column::words));
@@ -98,7 +99,7 @@ RowShape shape_by_type(const ListRow& row, Table table) {
   return shape;
 }
 
-/// Returns true if the row's integer type may also mean 32 bits, because its word does not say 16.
+/// Returns true if the row's integer type may also have 32 bits, because its word does not specify 16.
 bool may_be_wider(const ListRow& row, const RowShape& shape) {
   const bool is_integer = shape.type == Type::u16 || shape.type == Type::s16;
   return shape.kind == TypeKind::number && is_integer && !shape.is_flag && !row.has(Column::width) &&
@@ -123,7 +124,7 @@ RowShape shape_of(const ListRow& row, Table table, int printed_words) {
     shape.count = std::max(is_pair ? stated_words : 1, 1);
     return shape;
   }
-  if (shape.words == 0) {  // text, and raw words
+  if (shape.words == 0) {  // text and raw words
     if (stated_words == 0)
       row.remark("no length", Column::type,
                  quoted(row.text(Column::type)) +

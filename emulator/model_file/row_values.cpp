@@ -57,7 +57,8 @@ std::optional<Step> step_of(const ListRow& row) {
   return step;
 }
 
-/// Reads numbers of one row. They are counts, unless one of them has decimals: then all are in the unit.
+/// Reads the numbers in a row. They are counts, unless one of them has decimals; in that case, all are in the
+/// unit.
 class RowNumbers {
  public:
   RowNumbers(const ListRow& row, const RowShape& shape, const std::string& min, const std::string& max)
@@ -94,7 +95,7 @@ class RowNumbers {
     return value_of_real(single);
   }
 
-  /// Parses a whole number, which may have its unit after it.
+  /// Parses an integer, which a unit may follow.
   static std::optional<std::int64_t> whole(const std::string& word) {
     if (const auto number = parse_integer(word)) return number;
     const auto number = parse_decimal(word, true);
@@ -126,7 +127,7 @@ class RowNumbers {
   bool in_units_ = false;
 };
 
-/// The two ends of a range, as they are written, and their columns.
+/// The two ends of a range as they are written, and their columns.
 struct Ends {
   std::string min;
   std::string max;
@@ -178,7 +179,7 @@ void take_enumeration(const std::vector<NamedValue>& all, const RowShape& shape,
         bits.push_back(bits_called(as_word(bit.name), std::to_string(bit.value), listed.type));
         require_apart(bits);
         listed.bits = std::move(bits);
-      } catch (const std::invalid_argument&) {  // reserved bits share a name, for example
+      } catch (const std::invalid_argument&) {  // for example, reserved bits that have the same name
         continue;
       }
     }
@@ -191,7 +192,7 @@ void take_enumeration(const std::vector<NamedValue>& all, const RowShape& shape,
   listed.ranged = true;
 }
 
-/// Reads a range or an enumeration from a text for people, which may contain neither.
+/// Reads a range or an enumeration from a text for people, which may contain neither of them.
 void read_values(const ListRow& row, const RowShape& shape, ListedRegister& listed) {
   const std::string& text = row.text(Column::values);
   if (const auto all = parse_enumeration(text)) return take_enumeration(*all, shape, listed);

@@ -1,4 +1,4 @@
-// Reads the numbers of a row: its range, its default, and the meanings of its values.
+// Reads the numbers in a row: its range, its default, and the meanings of its values.
 #pragma once
 
 #include "emulator/model_file/list_row.h"
@@ -7,19 +7,19 @@
 
 namespace understudy::emulator::model_file {
 
-/// Read a row's numbers for one register of this shape. Each throws FileError for the first mistake.
+/// These read a row's numbers for a register of this shape. They throw FileError for the first mistake.
 void read_range(const ListRow& row, const RowShape& shape, models::imported::ListedRegister& listed);
-/// The range must be known.
+/// The range must already be known.
 void read_factory(const ListRow& row, const RowShape& shape, models::imported::ListedRegister& listed);
 /// Adds a remark for a scale or a number of decimals that cannot be read, and is ignored.
 void check_step(const ListRow& row);
 /// Returns the unit, with the step of a scale in front: "0.1V".
 std::string unit_of(const ListRow& row);
 
-/// Returns the words of a text or of a quantity of 64 bits after power-up, in the order of the wire.
+/// Returns the power-up words of a text or a 64-bit quantity, in the order of the line.
 std::vector<std::uint16_t> factory_words(const ListRow& row, const RowShape& shape);
 
-/// Returns a name in the characters that bit names may have.
+/// Returns a name that contains only characters which are allowed in bit names.
 std::string as_word(const std::string& text);
 
 }  // namespace understudy::emulator::model_file

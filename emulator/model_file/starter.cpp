@@ -25,12 +25,12 @@ using models::imported::ListedRegister;
 
 namespace {
 
-/// A key of an axis, and the words that makers use for such registers.
+/// A key of an axis, and the words that makers use for the corresponding register.
 struct Guess {
   std::string_view key;
   bool is_written = true;  // true if hosts write the register
   std::array<std::string_view, 4> words{};
-  std::string_view suffix{};  // comes after the name, such as a bit
+  std::string_view suffix{};  // follows the name, such as a bit
   std::string_view otherwise;
   std::string_view meaning;
 };
@@ -82,7 +82,7 @@ std::string padded(std::string text, std::size_t width) {
   return text;
 }
 
-/// Returns the line `firmware: [...]` if some registers begin with a later version.
+/// Returns the line `firmware: [...]` if some registers exist only from a later version on.
 std::string firmwares_of(const std::vector<ListedRegister>& registers) {
   std::set<Firmware> all;
   for (const ListedRegister& listed : registers) all.insert(listed.since);

@@ -1,5 +1,4 @@
-// Makes the files that `understudy import` writes for a list of registers: a model file and a bench to start
-// from.
+// Creates the initial files that `understudy import` writes for a register list: a model file and a bench.
 #pragma once
 
 #include <string>
@@ -9,11 +8,11 @@
 
 namespace understudy::emulator::model_file {
 
-/// Returns the registers of a list in a separate file. Throws FileError with all mistakes.
+/// Returns the registers of a list that is a separate file. Throws FileError with all mistakes.
 RegisterList read_list_file(const std::string& bytes, const std::string& path, const ListReading& reading);
 
-/// Returns a model file: the path of the list, usual settings of line and map, and an axis in comments, with
-/// registers of the list whose names suggest their meaning.
+/// Returns a model file: the path of the list, common settings for line and map, and an axis in comments,
+/// with those registers of the list whose names suggest their meaning.
 std::string starter_model(const RegisterList& list, const ListReading& reading, const std::string& name,
                           const std::string& list_path);
 /// Returns a bench with one device of that model. Its port is NAME.port.

@@ -28,7 +28,7 @@ std::size_t index_of(Table table) { return static_cast<std::size_t>(table); }
 
 std::vector<std::string> TakenPlaces::names_of(const ListedRegister& listed) {
   if (!is_32_bit(listed.type)) return {listed.name};
-  return {listed.name, listed.name + "_L", listed.name + "_H"};  // the halves have names too
+  return {listed.name, listed.name + "_L", listed.name + "_H"};  // the halves also have names
 }
 
 int TakenPlaces::line_of_name(const ListedRegister& listed) const {

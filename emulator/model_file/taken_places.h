@@ -1,4 +1,4 @@
-// The names and addresses of a list that are in use, and the lines that use them.
+// The names and addresses of a list that are already in use, and the lines that use them.
 #pragma once
 
 #include <array>
@@ -14,27 +14,27 @@ namespace understudy::emulator::model_file {
 
 class TakenPlaces {
  public:
-  /// Joins a row's registers with those of the list (joined_rows.h) if all of them are in it. Throws
-  /// FileError if the rows contradict each other.
+  /// If all registers of a row are already in the list, joins them with those in the list (joined_rows.h).
+  /// Throws FileError if the rows contradict each other.
   bool join(const ListRow& row, const std::vector<models::imported::ListedRegister>& registers,
             std::vector<models::imported::ListedRegister>& list);
-  /// Renames a register that has the name of an earlier one. Throws FileError if an address is taken.
+  /// Renames a register whose name is already in use. Throws FileError if an address is in use.
   void place(const ListRow& row, std::vector<models::imported::ListedRegister>& registers);
-  /// Remembers registers; the first of them has this number in the list.
+  /// Records registers. `number` is the number of the first of them in the list.
   void take(const ListRow& row, const std::vector<models::imported::ListedRegister>& registers,
             std::size_t number);
-  /// Returns the number of the register at an address plus 1, or 0.
+  /// Returns the number of the register at an address, plus 1, or 0 if there is none.
   std::size_t at(Table table, int address) const;
 
  private:
   struct Place {
-    std::size_t number = 0;  // of the register in the list, plus 1
+    std::size_t number = 0;  // the number of the register in the list, plus 1
     const ListRow* row = nullptr;
     std::string name{};
   };
   static std::vector<std::string> names_of(const models::imported::ListedRegister& listed);
   int line_of_name(const models::imported::ListedRegister& listed) const;
-  /// Returns the name, or one with the address appended if it is taken.
+  /// Returns the name. If it is in use, the address is appended.
   std::string free_name(const models::imported::ListedRegister& listed) const;
   void join_one(const ListRow& row, const models::imported::ListedRegister& again,
                 models::imported::ListedRegister& whole, const ListRow& first_row);

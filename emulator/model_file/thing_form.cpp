@@ -30,7 +30,7 @@ struct FunctionName {
   Table table;
   bool writes;
 };
-/// Some names occur in older drafts, with or without their last letter.
+/// Some names are from older drafts, with or without their last letter.
 constexpr std::array kFunctionNames{
     FunctionName{"readCoil", 1, Table::coil, false},
     FunctionName{"readDiscreteInput", 2, Table::discrete, false},
@@ -46,7 +46,7 @@ constexpr std::array<std::pair<std::string_view, Table>, 4> kEntities{{{"Coil", 
                                                                        {"HoldingRegister", Table::holding},
                                                                        {"InputRegister", Table::input}}};
 
-/// Returns a term of the binding. Its prefix is `modv`, or `modbus` in older drafts.
+/// Returns a term of the binding. Its prefix is `modv` or, in older drafts, `modbus`.
 std::optional<YamlFields> term(const YamlFields& form, std::string_view name) {
   for (const std::string_view prefix : {"modv:", "modbus:"}) {
     if (auto field = form.find(std::string(prefix) + std::string(name))) return field;
@@ -127,7 +127,7 @@ std::vector<std::string> operations_of(const YamlFields& form) {
   return all;
 }
 
-/// Returns the order of words and bytes: by terms, or by the content type of node-wot (`byteSeq`).
+/// Returns the order of words and bytes, from terms or from node-wot's content type (`byteSeq`).
 std::optional<WordOrder> order_of(const YamlFields& form) {
   WordOrder order;
   const auto word = term(form, "mostSignificantWord");
@@ -155,7 +155,8 @@ std::optional<WordOrder> order_of(const YamlFields& form) {
   return std::nullopt;
 }
 
-/// Reads a number by its term, or as the address of the form has it. A placeholder of a Thing Model is none.
+/// Returns a number from its term or from the address of the form. Placeholders in a Thing Model do not
+/// count.
 std::optional<std::int64_t> number_of(const YamlFields& form, std::string_view name,
                                       std::optional<std::int64_t> in_href, std::int64_t lowest,
                                       std::int64_t highest) {
@@ -164,7 +165,7 @@ std::optional<std::int64_t> number_of(const YamlFields& form, std::string_view n
   return in_href;
 }
 
-/// Returns nothing for a form of another protocol.
+/// Returns nothing for a form that belongs to another protocol.
 std::optional<ThingForm> read_form(const YamlFields& form, const std::string& base) {
   const auto href = form.find("href");
   const std::string written = href ? href->text() : "";

@@ -34,7 +34,7 @@ constexpr std::array<std::string_view, 13> kColumnsOfThings{
     "address", "name", "table", "access",     "type",    "words", "order",
     "min",     "max",  "unit",  "persistent", "default", "bits"};
 
-/// The words of lists for the types of XML Schema that have one size.
+/// The words that lists use for XML Schema types of a fixed size.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 13> kTypes{{{"boolean", "bool"},
                                                                                 {"byte", "int8"},
                                                                                 {"short", "s16"},
@@ -68,12 +68,12 @@ std::string csv_cell(const std::string& text) {
   return cell + '"';
 }
 
-/// The type of a list for a property, and how many registers or bits it has.
+/// The list type for a property, and how many registers or bits it has.
 struct ThingType {
   std::string word;
-  int words = 1;             // of one quantity
-  int count = 1;             // quantities
-  bool takes_words = false;  // the list has to say how many
+  int words = 1;             // words per quantity
+  int count = 1;             // number of quantities
+  bool takes_words = false;  // the list must specify the number of words
 };
 
 ThingType type_of(const YamlFields& property, const ThingForm& form) {
@@ -104,7 +104,7 @@ ThingType type_of(const YamlFields& property, const ThingForm& form) {
   return made;
 }
 
-/// The two ends of a property's range, or nothing.
+/// Returns the two ends of a property's range, or nothing.
 std::pair<std::string, std::string> range_of(const YamlFields& property, const ThingType& type) {
   std::string min = text_at(property, "minimum");
   std::string max = text_at(property, "maximum");
@@ -147,7 +147,7 @@ std::string order_text(const std::optional<WordOrder>& order) {
   return low_first ? "cdab" : "abcd";
 }
 
-/// Reads a Thing into the lines of a list.
+/// Converts a Thing to the lines of a list.
 class ThingReader {
  public:
   ThingReader(const YamlFields& thing, std::optional<AddressReading> addresses, ThingList& made)
@@ -238,10 +238,10 @@ class ThingReader {
   std::optional<AddressReading> addresses_;
   ThingList& made_;
   std::string base_;
-  std::vector<YamlFields> rows_;  // the property of each line of the list
+  std::vector<YamlFields> rows_;  // for each line of the list, its property
 };
 
-/// Moves a message about a line of the list to the property that it comes from.
+/// Converts a message about a line of the list to a message about the corresponding property.
 FileError::Diagnostic at_property(const FileError::Diagnostic& about, const std::vector<YamlFields>& rows) {
   const auto row = static_cast<std::size_t>(std::max(about.place.line - 2, 0));
   const std::size_t colon = about.text.find(": ");

@@ -17,13 +17,13 @@ namespace understudy::emulator::model_file {
 bool is_thing(std::string_view text);
 
 struct ThingList {
-  std::string csv{};          // a list of registers, with addresses on the wire
-  std::optional<int> unit{};  // the station number that its forms give
-  RegisterList list{};        // the same list, read
+  std::string csv{};          // a register list, with addresses as on the line
+  std::optional<int> unit{};  // the station number in the forms
+  RegisterList list{};        // the same list after reading
 };
 
-/// Reads properties as registers. `path` is for messages; `addresses` replaces what the forms say about
-/// counting from 0 or 1. Throws FileError with all errors.
+/// Reads properties as registers. `path` is for messages. `addresses` overrides whether the forms count from
+/// 0 or 1. Throws FileError with all errors.
 ThingList read_thing(const std::string& text, const std::string& path,
                      std::optional<AddressReading> addresses);
 

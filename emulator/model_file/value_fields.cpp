@@ -190,8 +190,7 @@ class BindingCheck {
                " never changes; expected a register that hosts write, or that shows a value");
   }
 
-  /// Refuses values that change automatically, because a command notices them only when hosts write
-  /// something.
+  /// Refuses values that change automatically, because commands react only to writes from hosts.
   void check_command(const YamlFields& field, Command command, const Spot& spot) const {
     const std::string& name = made_.registers[spot.number].name;
     for (const ShownPart& part : shown_[spot.number]) {

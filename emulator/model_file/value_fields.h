@@ -1,4 +1,4 @@
-// Reads the terminals of a model file, and values without an axis.
+// Reads the terminals of a model file, and the values that do not belong to an axis.
 #pragma once
 
 #include "emulator/model_file/binder.h"
@@ -8,7 +8,7 @@
 
 namespace understudy::emulator::model_file {
 
-/// Reads `inputs`, or the `outputs` that follow them. Like the other readers, it collects all errors.
+/// Reads `inputs`, or the `outputs` that follow them. Like all readers, it collects all errors.
 void read_terminals(const world::YamlFields& fields, bool are_inputs, models::imported::Description& made,
                     Binder& binder, world::Diagnostics& diagnostics);
 void read_followings(const world::YamlFields& fields, models::imported::Description& made, Binder& binder,
@@ -18,8 +18,8 @@ void read_comparisons(const world::YamlFields& fields, models::imported::Descrip
 void read_momentary(const world::YamlFields& field, models::imported::Description& made, const Binder& binder,
                     world::Diagnostics& diagnostics);
 
-/// Reports errors that only the whole file can show: commands in registers that show something else,
-/// relations of relations, and the like.
+/// Reports errors that can only be detected in the whole file: commands in registers that show something
+/// else, relations between relations, and others.
 void check_bindings(const world::YamlFields& root, const models::imported::Description& made,
                     world::Diagnostics& diagnostics);
 

@@ -57,7 +57,7 @@ pty::Strike strike_of(std::size_t number, const Fault& fault, bool is_request) {
   return {.fault = number, .kind = row.name, .effect = is_other ? row.effect_on_request : row.effect};
 }
 
-/// Returns true if the stage lets at least a part of a reply be sent at once.
+/// Returns true if at least part of a reply can be sent immediately in spite of this stage.
 bool is_sent_at_once(const pty::WireFault& stage) {
   using Stage = pty::WireFault::Kind;
   return stage.kind != Stage::drop && stage.kind != Stage::delay &&
@@ -107,7 +107,7 @@ bool FaultWatch::holds(const std::string& expression) {
   }
 }
 
-/// Returns the fault's own random stream, which does not depend on other faults.
+/// Returns the fault's own random stream, which is independent of other faults.
 std::uint64_t FaultWatch::stream(std::size_t number) const { return draw(draw(seed_, 1), number); }
 
 // --- time ----------------------------------------------------------------------------------------
@@ -171,8 +171,8 @@ bool FaultWatch::is_hit(std::size_t number, ArmedFault& armed, const ReceivedFra
   return strikes_frame(armed.fault.trigger, armed.course, protocol.facts_of(frame), *this, stream(number));
 }
 
-/// Returns true if the fault strikes the request. All stations of a line receive the same request, so the
-/// fault is judged once, when the first station asks.
+/// Returns true if the fault affects the request. All stations on a line receive the same request, so this is
+/// decided once, when the first station asks.
 bool FaultWatch::is_request_hit(std::size_t number, ArmedFault& armed, const ReceivedFrame& frame) {
   FaultCourse& course = armed.course;
   if (!armed.fault.on_line) return frame.is_for_device && is_hit(number, armed, frame);
@@ -183,7 +183,7 @@ bool FaultWatch::is_request_hit(std::size_t number, ArmedFault& armed, const Rec
   return frame.last_character == course.judged_character && course.was_hit;
 }
 
-/// Reports strikes to the observers of the line. This has no other effect.
+/// Reports effects of faults to the observers of the line. This has no other effect.
 void FaultWatch::report(const ReceivedFrame& frame, bool is_reply, bool is_sent,
                         std::span<const pty::Strike> strikes) {
   if (strikes.empty()) return;
@@ -206,12 +206,12 @@ std::vector<pty::WireFault> FaultWatch::on_request(const ReceivedFrame& frame) {
   std::vector<pty::Strike> strikes;
   for (auto& [number, armed] : faults_) {
     if (!is_of_requests(armed.fault) || !is_at(armed.fault, frame)) continue;
-    // All stations of a line ask about the same request; it is reported only once.
+    // All stations on a line ask about the same request, but it is reported only once.
     const bool is_news = !armed.fault.on_line || frame.last_character > armed.course.judged_character;
     if (!is_request_hit(number, armed, frame)) continue;
     if (is_news) strikes.push_back(strike_of(number, armed.fault, true));
     stages.push_back(stage_of(armed.fault));
-    // A dropped request does not reach the next stages.
+    // A dropped request does not reach later stages.
     if (stages.back().kind == pty::WireFault::Kind::drop) break;
   }
   report(frame, false, false, strikes);
@@ -230,7 +230,7 @@ FrameFaults::Treatment FaultWatch::on_serving(const ReceivedFrame& frame) {
       strikes.push_back(strike_of(number, fault, true));
       continue;
     }
-    // A fault of a machine or device does not strike again while it is in effect.
+    // A fault of a machine or device does not begin again while it is active.
     if (is_of_frames(fault.kind) || !is_about_frames(fault.trigger) || course.in_force) continue;
     if (!is_hit(number, armed, frame)) continue;
     strikes.push_back(strike_of(number, fault, true));

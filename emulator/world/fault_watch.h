@@ -1,5 +1,5 @@
-// Decides when the faults of a world strike: stations ask about each frame, and the world about time. It
-// exists only while a fault waits for something or changes with time.
+// Decides when the faults of a world take effect: stations ask it about each frame, and the world about time.
+// It exists only while a fault is waiting for something or changes with time.
 #pragma once
 
 #include <map>
@@ -20,8 +20,8 @@ class FaultWatch final : public FrameFaults, private ConditionSource {
  public:
   using Faults = std::map<std::size_t, ArmedFault>;  // by number
 
-  /// `world` and `faults` must outlive it. The faults must be possible in this world (check_fault). When a
-  /// fault is added or removed, make a new watch.
+  /// `world` and `faults` must outlive this object. The faults must be possible in this world (check_fault).
+  /// When a fault is added or removed, create a new watch.
   FaultWatch(World& world, Faults& faults, std::uint64_t seed);
 
   // --- time ------------------------------------------------------------------------------------
@@ -29,7 +29,7 @@ class FaultWatch final : public FrameFaults, private ConditionSource {
   SimTime next_moment() const;
   /// Returns the first tick after `done` at whose end check() must be called.
   Tick next_tick(Tick done) const;
-  /// Records which faults have begun or ended by now.
+  /// Records which faults have begun or ended.
   void check(SimTime now, bool is_tick);
   bool has_news() const;
 

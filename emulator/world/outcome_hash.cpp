@@ -87,8 +87,8 @@ std::vector<OutcomeHash::Outputs> OutcomeHash::outputs_of(const Model& model) {
   return all;
 }
 
-/// Adds the two-level outputs in words of 64 bits, the first output in the highest bit, and then the analog
-/// levels and pulse counts.
+/// Adds the two-level outputs in words of 64 bits, with the first output in the highest bit, and then the
+/// analog levels and pulse counts.
 void OutcomeHash::add_outputs(const Device& device, const std::vector<Outputs>& outputs) {
   constexpr int kHashBits = 64;
   std::uint64_t word = 0;

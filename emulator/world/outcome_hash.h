@@ -1,6 +1,5 @@
-// Hashes everything that a world outputs: every byte on every line with its time, in both directions, and
-// the pulses of every axis and every output of any kind in every tick. Two runs with the same hash behaved
-// the same.
+// Hashes everything that a world outputs: every byte on every line with its time, in both directions, and, in
+// every tick, the pulses of every axis and all outputs. Two runs with equal hashes behaved identically.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +12,7 @@ namespace understudy::emulator::world {
 
 class OutcomeHash final : public TickWatcher {
  public:
-  /// Starts hashing at this moment. The world must outlive it.
+  /// Starts hashing now. The world must outlive this object.
   explicit OutcomeHash(World& world);
   ~OutcomeHash() override;
   OutcomeHash(const OutcomeHash&) = delete;
@@ -21,7 +20,7 @@ class OutcomeHash final : public TickWatcher {
 
   void on_tick(Tick tick) override;
   std::uint64_t value() const { return hash_; }
-  /// Continues from a value that an earlier hash had.
+  /// Continues from the value of an earlier hash.
   void restore(std::uint64_t value) { hash_ = value; }
 
  private:

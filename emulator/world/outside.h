@@ -1,6 +1,6 @@
-// Reports to recorders everything that reaches a world from outside, except what hosts do on its lines
-// (pty/line_observer.h). Repeating both in a world of the same bench, at the same simulated times, reproduces
-// the run.
+// Reports to recorders everything that reaches a world from outside, except the hosts' traffic on its lines
+// (pty/line_observer.h). The run can be reproduced by repeating both in a world from the same bench, at the
+// same simulated times.
 #pragma once
 
 #include <cstddef>
@@ -19,16 +19,16 @@ class OutsideListener {
   virtual void on_power(std::size_t device, bool on) = 0;
   virtual void on_inject(const Fault& fault) = 0;
   virtual void on_clear_fault(std::size_t number) = 0;
-  /// A register was written without using the line.
+  /// Called when a register was written without using the line.
   virtual void on_write(std::size_t device, const PreparedWrite& write) = 0;
-  /// A device without registers was given a value by name.
+  /// Called when a value of a device without registers was set by name.
   virtual void on_assign(std::size_t device, std::string_view name, double value) = 0;
-  /// A program was given to the device, which accepted or refused it.
+  /// Called when a program was loaded into the device, or the device refused it.
   virtual void on_program(std::size_t device, std::string_view text, bool is_refused) = 0;
-  /// A command was given by its name, without using the line.
+  /// Called when a command was executed by its name, without using the line.
   virtual void on_command(std::size_t device, std::string_view text) = 0;
-  /// A fault of the machine or of a device begins or ends. It follows from other events, so recordings do
-  /// not need it.
+  /// Called when a fault of the machine or of a device begins or ends. This follows from other events, so
+  /// recordings do not need it.
   virtual void on_fault(std::size_t /*number*/, bool /*in_force*/) {}
 };
 

@@ -57,11 +57,11 @@ WorldState::Part world_part(const World& world) {
   return {"world", writer.take()};
 }
 
-/// A line's treatment of its hosts. This is a setting, not a state, but two worlds with different settings
-/// have different futures.
+/// How a line treats its hosts. This is a setting, not state, but two worlds with different settings have
+/// different futures.
 struct Hearing {
   bool is_strict = false;         // requires the silence between frames
-  bool enforces_settings = true;  // ignores a host with another speed
+  bool enforces_settings = true;  // ignores hosts with a different speed
 };
 Hearing hearing_of(const WorldLine& line) {
   return {.is_strict = line.framing.strict, .enforces_settings = line.line.options().enforce_settings};
@@ -107,7 +107,7 @@ void check_pulses(const World& world, const WorldValues& values) {
   }
 }
 
-/// Returns the number of places at which a device of that model can have the fault.
+/// Returns at how many places a device of this model can have the fault.
 std::size_t places_of(const Model& model, const Fault& fault) {
   switch (fault_kind(fault.kind).place) {
     case FaultKindRow::Place::axis: return model.axes.size();
@@ -206,12 +206,12 @@ void read_hearing(const WorldLine& line, StateReader& reader) {
   }
 }
 
-/// Reads the parts of a state one after another. They must have the names of this world's parts.
+/// Reads the parts of a state one after another. Their names must be those of this world's parts.
 class Parts {
  public:
   explicit Parts(const WorldState& state) : state_(state) {}
 
-  /// Calls `read` with the next part. Errors carry the part's name.
+  /// Calls `read` with the next part. Errors contain the part's name.
   template <class Read>
   auto read(const std::string& name, Read read) {
     if (next_ == state_.parts.size() || state_.parts[next_].name != name) {
@@ -360,8 +360,8 @@ void restore(World& world, const WorldState& state) { read_state(world, state)()
 std::string difference(const World& world, const WorldState& a, const WorldState& b) {
   Parts of_a(a);
   Parts of_b(b);
-  // All parts are read although only the first difference is returned, because an invalid part must be
-  // refused wherever it is.
+  // All parts are read although only the first difference is returned, because an invalid part must always be
+  // refused.
   std::string first;
   const auto look = [&](const std::string& name, auto differ) {
     of_a.read(name, [&](const StateReader& of_first) {

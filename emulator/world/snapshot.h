@@ -1,9 +1,9 @@
 // Saves the state of a running world as a value, restores it, compares it and hashes it. A state can also be
 // restored into another world of the same bench. snapshot_file.h stores it in a file.
 //
-// A restored world continues as the saved one did: the same outside events at the same times lead to the same
-// states and the same bytes on its lines. These functions must not be called from within World::advance_to(),
-// that is, by watchers.
+// A restored world continues like the saved world: the same outside events at the same times lead to the same
+// states and the same bytes on its lines. Do not call these functions from within World::advance_to(), which
+// means from watchers.
 #pragma once
 
 #include <cstddef>
@@ -25,7 +25,7 @@ struct WorldState {
   struct Part {
     std::string name;  // "world", "device feeder", "line rs485", "edge"
     std::vector<std::byte> bytes;
-    SharedTexts texts{};  // shared with the saved world; `bytes` has their digests
+    SharedTexts texts{};  // shared with the saved world; `bytes` contains their digests
     bool operator==(const Part& other) const {
       return name == other.name && texts == other.texts && bytes.size() == other.bytes.size() &&
              (bytes.empty() || std::memcmp(bytes.data(), other.bytes.data(), bytes.size()) == 0);
@@ -36,26 +36,26 @@ struct WorldState {
   bool operator==(const WorldState&) const = default;
 };
 
-/// The part that does not affect the model: bytes that a host has not taken yet, and how ticks were skipped.
+/// The part that does not affect the model: bytes that a host has not read yet, and how ticks were skipped.
 inline constexpr std::string_view kEdgePart = "edge";
 
 WorldState save(const World& world);
 
-/// Reads a state. The result puts the world into that state; it can be called repeatedly and does not throw.
-/// Throws StateError "part: what is wrong" if such a world cannot be in the state. Watchers, observers and
-/// listeners stay attached. The world must outlive the result.
+/// Reads a state. The returned function puts the world into that state; it can be called repeatedly and does
+/// not throw. Throws StateError "part: what is wrong" if such a world cannot be in that state. Watchers,
+/// observers and listeners stay attached. The world must outlive the function.
 std::function<void()> read_state(World& world, const WorldState& state);
 
-/// Reads a state and puts it into effect at once. If it throws, nothing has changed.
+/// Reads a state and puts it into effect immediately. If it throws, nothing has changed.
 void restore(World& world, const WorldState& state);
 
-/// Returns the first field in which two states of such a world differ, by path and name:
+/// Returns the path and name of the first field in which two states of such a world differ:
 /// "feeder.axes[0].motor.travel_pulses: 12 against 13", "rs485.feeder.counters.replies: 1 against 2". Empty
-/// if they are equal. Throws StateError if either cannot be read.
+/// if they are equal. Throws StateError if either state cannot be read.
 std::string difference(const World& world, const WorldState& a, const WorldState& b);
 
-/// Returns a hash of everything that affects the model. It leaves out bytes that a host has not read yet, and
-/// how ticks were skipped.
+/// Returns a hash of everything that affects the model. It omits bytes that a host has not read yet, and how
+/// ticks were skipped.
 std::uint64_t hash(const World& world);
 
 }  // namespace understudy::emulator::world

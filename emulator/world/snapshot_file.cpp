@@ -1,4 +1,4 @@
-// Reads and writes the JSON of snapshots. Only this file uses it.
+// Reads and writes the JSON of snapshots. Only this file depends on the format.
 #include "emulator/world/snapshot_file.h"
 
 #include <array>
@@ -31,7 +31,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* kSnapshotKind = "snapshot";
 constexpr int kSnapshotFormat = 1;
-constexpr int kDeepest = 2;  // the object of the parts inside that of the file
+constexpr int kDeepest = 2;  // the object that contains the parts, inside that of the file
 
 std::string hex(std::uint64_t number) {
   std::array<char, 17> digits{};
@@ -116,7 +116,7 @@ std::uint64_t bench_hash(const Bench& bench) {
 std::string to_text(const WorldState& state, std::uint64_t bench) {
   Json parts = Json::object();
   for (const WorldState::Part& part : state.parts) {
-    // The bytes come first, then each text after a dot.
+    // The bytes come first. Each text follows after a dot.
     std::string encoded = to_base64(part.bytes);
     for (const SharedText& text : part.texts) {
       encoded += '.';

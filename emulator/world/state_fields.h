@@ -1,4 +1,4 @@
-// Lists the fields of a world's state for snapshot.cpp (base/state/fields.h), in the order of the bytes.
+// The fields of a world's state for snapshot.cpp (base/state/fields.h), in the order of the saved bytes.
 #pragma once
 
 #include "base/state/fields.h"
@@ -123,7 +123,7 @@ struct StateOf<emulator::world::World> {
                 field<&Value::faults_>(),      field<&Value::next_fault_>(), field<&Value::disturbed_>(),
                 field<&Value::now_>(),         field<&Value::done_>(),       field<&Value::input_turns_>()};
   static constexpr std::size_t members = 27;
-  /// The number of members that are not in `fields`: setup, observers, and counts of how ticks were run.
+  /// The number of members that are not in `fields`: the setup, observers, and counts of how ticks were run.
   static constexpr std::size_t apart = 18;
   static void name_all(Value& all) {  // does not compile if a member is missing
     [[maybe_unused]] auto& [known, devices, axes, lines, text_lines, plants, driven_axes, contacts,

@@ -1,5 +1,6 @@
-// Parses JSON more strictly than its library, which silently keeps the last of two equal keys and allows any
-// depth that memory does. Only files that read JSON include this, because the library is slow to compile.
+// Parses JSON more strictly than the library, which silently keeps the last of several equal keys and limits
+// the depth only by memory. Include this only in files that read JSON, because the library is slow to
+// compile.
 #pragma once
 
 #include <climits>
@@ -14,12 +15,12 @@
 
 namespace understudy::emulator::world {
 
-/// Thrown for text that is nested deeper than anything we write.
+/// Thrown for text that is nested more deeply than anything that we write.
 struct TooDeepJson : std::runtime_error {
   TooDeepJson() : std::runtime_error("is nested too deeply") {}
 };
 
-/// Thrown for an object with too many members. The library searches all of them for each new member.
+/// Thrown for an object with too many members, because the library searches all members for each new one.
 struct TooManyMembers : std::runtime_error {
   explicit TooManyMembers(std::size_t max)
       : std::runtime_error("an object has more than " + std::to_string(max) + " members") {}
@@ -31,11 +32,11 @@ struct JsonBounds {
   std::size_t max_members = SIZE_MAX;  // of one object
 };
 
-/// Throws the result of `twice` for a key that appears twice in one object, TooDeepJson and
-/// TooManyMembers for text beyond `bounds`, and nlohmann's own exceptions for text that is not JSON.
+/// Throws the result of `twice` for a key that occurs twice in an object, TooDeepJson and TooManyMembers for
+/// text that exceeds `bounds`, and nlohmann's own exceptions for text that is not JSON.
 template <typename Json, typename Twice>
 Json parse_strict_json(std::string_view text, const Twice& twice, const JsonBounds& bounds = {}) {
-  std::vector<std::set<std::string>> keys;  // one set for each open object
+  std::vector<std::set<std::string>> keys;  // one set per open object
   return Json::parse(text, [&](int depth, typename Json::parse_event_t event, Json& parsed) {
     const bool opens =
         event == Json::parse_event_t::object_start || event == Json::parse_event_t::array_start;

@@ -34,11 +34,11 @@ namespace understudy::emulator::world {
 
 namespace {
 
-/// Asks for large pages if there are many devices. They are close in memory because they were made one after
-/// another.
+/// Asks for large pages if there are many devices. Devices are close together in memory, because they were
+/// created one after another.
 void keep_together(const std::vector<std::unique_ptr<Device>>& devices) {
   constexpr std::size_t kCrowd = 100;
-  constexpr std::ptrdiff_t kMaxOfOne = std::ptrdiff_t{64} << 10;  // bytes; more means other data is between
+  constexpr std::ptrdiff_t kMaxOfOne = std::ptrdiff_t{64} << 10;  // bytes; more: other data is between
   if (devices.size() < kCrowd) return;
   const auto by_address = [](const auto& a, const auto& b) { return std::less<>()(a.get(), b.get()); };
   const auto [low, high] = std::minmax_element(devices.begin(), devices.end(), by_address);
@@ -48,7 +48,7 @@ void keep_together(const std::vector<std::unique_ptr<Device>>& devices) {
     ask_for_large_pages(first, last);
 }
 
-/// Converts a time of the host's clock to simulated time, which runs faster if `patience` is longer.
+/// Converts a time on the host's clock to simulated time, which runs faster if `patience` is longer.
 SimTime as_long_as(SimTime time, SimTime patience) {
   const double factor = static_cast<double>(patience.count()) / static_cast<double>(kFramePatience.count());
   const double scaled = static_cast<double>(time.count()) * factor;
@@ -56,7 +56,7 @@ SimTime as_long_as(SimTime time, SimTime patience) {
   return scaled >= kMax ? kHorizon : SimTime{static_cast<std::int64_t>(scaled)};
 }
 
-/// Makes a line with its stations.
+/// Creates a line with its stations.
 std::unique_ptr<WorldLine> made_line(const LineSetup& setup,
                                      const std::vector<std::unique_ptr<Device>>& devices,
                                      const WorldOptions& options,
@@ -118,7 +118,7 @@ World::World(const Bench& bench, const WorldOptions& options,
   }
   for (const Fault& fault : bench.faults) inject(fault);
   for (const MachineSetup& machine : bench.machines) connect_drive(machine);
-  // A machine may stand on a switch at power-up.
+  // A machine may be at a switch at power-up.
   for (std::size_t d = 0; d < devices_.size(); ++d) {
     wire_contacts(d);
     step_plant(d);
@@ -126,14 +126,14 @@ World::World(const Bench& bench, const WorldOptions& options,
   begin_edges();
   const auto is_of_machine = [](const WireSetup& wire) { return wire.from_axis >= 0; };
   if (std::any_of(wires_.begin(), wires_.end(), is_of_machine)) latch_wires();
-  // No host could see anything that devices send at power-up, so sending begins with the first tick.
+  // No host could receive anything that devices send at power-up, so transmission begins in the first tick.
   poll_text(kTickLength);
 }
 
 World::~World() = default;
 
-/// Connects the contacts of the machines to inputs. Without a drive, an alarm can only be injected, and has
-/// no contact if another contact uses its input.
+/// Connects the contacts of the machines to inputs. Without a drive, an alarm can only be injected, and there
+/// is no alarm contact if another contact uses its input.
 void World::wire_contacts(std::size_t number) {
   const auto rows = devices_[number]->model().axes;
   auto& wired = contacts_.emplace_back();
@@ -158,9 +158,9 @@ const PlantAxis& World::plant(std::size_t device, int axis) const {
 }
 
 void World::advance_to(SimTime time) {
-  // Ticks do not change when lines are due, unless devices send unasked. Watchers may change it.
+  // Ticks do not change when lines are due, unless devices send without a request. Watchers may change it.
   SimTime line_time = next_line_time();
-  // True if watchers have seen a quiet tick and nothing has happened since.
+  // True if watchers were notified of a quiet tick and nothing has happened since.
   bool is_at_rest = false;
   while (true) {
     const SimTime tick_time = time_of(done_ + 1);
@@ -172,7 +172,7 @@ void World::advance_to(SimTime time) {
       is_at_rest = false;
       continue;
     }
-    // Ticks in which nothing happens are skipped, up to the next one in which something does.
+    // Ticks in which nothing happens are skipped, up to the next tick in which something happens.
     const Tick reachable = tick_at(std::min(time, line_time));
     Tick active = bulk_ticks_ ? next_active_tick() : done_ + 1;
     if (active > done_ + 1) active = std::min(active, next_fault_tick());
@@ -209,7 +209,7 @@ void World::advance_to(SimTime time) {
   now_ = std::max(now_, time);
 }
 
-/// Returns the last tick up to which no watcher needs to see quiet ticks.
+/// Returns the last tick up to which no watcher needs quiet ticks.
 Tick World::last_alike() const {
   Tick next = kNever;
   for (const TickWatcher* watcher : watchers_) {
@@ -220,14 +220,14 @@ Tick World::last_alike() const {
 }
 
 void World::show_tick(bool is_rest) {
-  // A watcher may remove itself, so this is a copy.
+  // This is a copy, because a watcher may remove itself.
   const std::vector<TickWatcher*> present = watchers_;
   for (TickWatcher* watcher : present) is_rest ? watcher->on_rest(done_) : watcher->on_tick(done_);
 }
 
 std::optional<SimTime> World::next_due() const {
   Tick tick = std::min(next_active_tick(), next_fault_tick());
-  // While axes only continue to move, the process need not wake up, unless watchers want to see it.
+  // While axes only continue to move, the process need not wake up, unless watchers need to be notified.
   if (tick == done_ + 1 && !disturbed_ && watchers_.empty()) tick = next_event_tick(kNever);
   const SimTime due = std::min(next_line_time(), time_of(tick));
   if (due == kForever) return std::nullopt;
@@ -252,7 +252,7 @@ SimTime World::next_line_time() const {
   return next;
 }
 
-/// Runs what is due on the lines at `time`, after the faults that strike at that moment.
+/// Runs everything on the lines that is due at `time`, after the faults that take effect at that moment.
 void World::run_lines(SimTime time) {
   if (fault_watch_) {
     fault_watch_->check(now_, false);
@@ -262,7 +262,7 @@ void World::run_lines(SimTime time) {
   if (fault_watch_) settle_faults();
 }
 
-/// Lets lines send what devices have to send after a tick or an outside event.
+/// Makes lines send what devices want to send after a tick or an outside event.
 void World::poll_text(SimTime now) {
   for (WorldLine* line : unasked_lines_) {
     for (const auto& station : line->stations) {
@@ -275,7 +275,7 @@ void World::run_tick() {
   disturbed_ = false;
   ++done_;
   if (!input_turns_.empty()) turn_inputs();
-  // Devices affect each other only by wires, latched last. So each runs all phases while it is in the cache.
+  // Devices interact only through wires, latched last. So each runs all phases while it is in the cache.
   for (std::size_t d = 0; d < devices_.size(); ++d) {
     prefetch_device(d + 2);
     run_device(d);
@@ -284,7 +284,7 @@ void World::run_tick() {
   ++ticks_.run;
 }
 
-/// Prefetches what run_device() needs, and the device two places later, which points to its other data.
+/// Prefetches the data for run_device(), and the device two places later with its pointers to other data.
 void World::prefetch_device(std::size_t number) const {
   if (number >= devices_.size()) return;
   if (number + 2 < devices_.size()) prefetch_line(devices_[number + 2].get());
@@ -305,7 +305,7 @@ void World::run_device(std::size_t number) {
   device.set_now(done_);
   if (!powered) return;
   device.update_outputs(done_);
-  // The drives of the device see its outputs in the next tick.
+  // The drives of the device receive its outputs in the next tick.
   for (const std::size_t a : driven_axes_[number]) {
     if (plants_[number][a].seen_inputs() != drive_inputs(number, a)) disturbed_ = true;
   }
@@ -391,7 +391,7 @@ void World::apply_input(std::size_t device, int terminal) {
   devices_[device]->set_input(terminal, input.stuck ? *input.stuck : level);
 }
 
-/// First runs what is due at this moment, in the same order as a replay does.
+/// First runs what is due at this moment, in the same order as a replay.
 void World::run_due_lines() {
   if (now_ > SimTime{0}) run_lines(now_);
 }
@@ -420,7 +420,7 @@ void World::switch_power(std::size_t device, bool on) {
   settle_power(device);
 }
 
-/// Switches the power of a device: it is on if its supply is on and no fault cuts it.
+/// Switches the power of a device: it is on if its supply is on and no fault cuts it off.
 void World::settle_power(std::size_t device) {
   const auto cuts = [&](const auto& entry) {
     const auto& [fault, course] = entry.second;
@@ -437,7 +437,7 @@ void World::settle_power(std::size_t device) {
       station->reset();
       line->line.discard_pending(*station, now_);
     }
-    // DIP switches may have changed the device's speed. The line takes the settings of its first powered
+    // DIP switches may have changed the device's speed. The line uses the settings of its first powered
     // station.
     const auto speaks = std::find_if(line->stations.begin(), line->stations.end(),
                                      [](const auto& station) { return station->device().powered(); });

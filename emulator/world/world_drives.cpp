@@ -11,7 +11,7 @@
 
 namespace understudy::emulator::world {
 
-/// Adds a drive. If neither its controller nor a wire can clear its alarm, disabling it does.
+/// Adds a drive. If neither its controller nor a wire can clear its alarm, disabling the drive clears it.
 void World::connect_drive(const MachineSetup& machine) {
   if (!machine.plant.drive) return;
   driven_axes_[machine.device].push_back(static_cast<std::size_t>(machine.axis));
@@ -25,8 +25,8 @@ void World::connect_drive(const MachineSetup& machine) {
   plants_[machine.device][axis].clear_alarm_by_disabling();
 }
 
-/// Returns the levels that a controller gives to the drive of an axis. Without a servo output, the axis
-/// itself reports whether the servo is on.
+/// Returns the levels that a controller sets at the drive of an axis. Without a servo output, the axis itself
+/// reports whether the servo is on.
 DriveInputs World::drive_inputs(std::size_t number, std::size_t axis) const {
   const Device& device = *devices_[number];
   const AxisRow& row = device.model().axes[axis];
@@ -37,7 +37,7 @@ DriveInputs World::drive_inputs(std::size_t number, std::size_t axis) const {
           .alarm_clear = driven(row.alarm_clear_output)};
 }
 
-/// Latches the wires to an input of a drive. The drive sees their level in the next tick.
+/// Latches the wires to an input of a drive. The drive reads their level in the next tick.
 void World::latch_drive(const WireSetup& wire) {
   const bool is_on = std::any_of(wires_.begin(), wires_.end(), [&](const WireSetup& other) {
     return other.to_device == wire.to_device && other.to_axis == wire.to_axis &&

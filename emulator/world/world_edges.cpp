@@ -1,6 +1,6 @@
-// Tells devices that handle edges between ticks at which positions of an axis its machine's switches change
+// Informs devices that handle edges between ticks at which positions of an axis its machine's switches change
 // inputs. The edges are sent again whenever they change: when the machine loses or regains pulses or is
-// pushed, when a switch turns on or off, or when an input is held, stuck, or on by a wire.
+// pushed, when a switch goes on or off, or when an input is held, stuck, or driven by a wire.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -13,11 +13,11 @@
 
 namespace understudy::emulator::world {
 
-/// Returns the edges in positions as the device counts them.
+/// Returns the edges as positions in the device's count.
 MachineEdges World::edges_of(std::size_t device, std::size_t axis) const {
   MachineEdges edges;
   const PlantAxis& plant = plants_[device][axis];
-  // It is unknown how far the machine will move, so only the levels at the end of a tick count.
+  // It is not known how far the machine will move, so only the levels at the end of a tick count.
   if (!plant.steps_all()) return edges;
   const std::int64_t origin = plant.position_pulses() - axes_[device]->place_pulses(static_cast<int>(axis));
   if (plant.has_encoder() && !plant.setup().has_wheel) {
@@ -84,7 +84,7 @@ void World::resend_edges(std::size_t device) {
   send_edges(device);
 }
 
-/// Sends the edges again if the machine has lost or gained pulses. Runs after ticks in which no switch has
+/// Sends the edges again if the machine has lost or gained pulses. Called after ticks in which no switch has
 /// changed.
 void World::check_positions(std::size_t device) {
   for (std::size_t a = 0; a < sent_edges_[device].size(); ++a) {
@@ -94,7 +94,7 @@ void World::check_positions(std::size_t device) {
   }
 }
 
-/// Adds the part of each turn that falls into this tick. Runs at the beginning of the tick.
+/// Adds the part of each turn that belongs to this tick. Called at the beginning of the tick.
 void World::turn_inputs() {
   __extension__ using Wide = __int128;
   const auto turned = [](const InputTurn& turn) {

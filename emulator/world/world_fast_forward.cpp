@@ -15,7 +15,7 @@ namespace understudy::emulator::world {
 
 namespace {
 
-/// Tells a device how far its machines can move until a contact changes.
+/// Informs a device how far its machines can move before a contact changes.
 class Machines final : public ClearTravel {
  public:
   explicit Machines(const std::vector<PlantAxis>& plants) : plants_(plants) {}
@@ -37,7 +37,7 @@ class Machines final : public ClearTravel {
 
 }  // namespace
 
-/// Returns true if a wire comes from an output that may change while axes only continue to move.
+/// Returns true if a wire begins at an output that may change while axes only continue to move.
 bool World::has_moving_wires() const {
   return std::any_of(wires_.begin(), wires_.end(), [&](const WireSetup& wire) {
     const bool is_outputs = wire.from_axis < 0 && devices_[wire.from_device]->powered();
@@ -45,9 +45,9 @@ bool World::has_moving_wires() const {
   });
 }
 
-/// Returns the first tick at which anything but continuous motion happens, but at most `limit` + 1.
+/// Returns the first tick in which anything but continuous motion happens, at most `limit` + 1.
 Tick World::next_event_tick(Tick limit) const {
-  constexpr Tick kFarAhead = 1'000'000'000'000;  // keeps closed forms within the range of their numbers
+  constexpr Tick kFarAhead = 1'000'000'000'000;  // prevents closed forms from overflowing
   if (!input_turns_.empty() || has_moving_wires()) return done_ + 1;
   Tick last = std::min({limit, next_fault_tick() - 1, done_ + kFarAhead});
   for (std::size_t d = 0; d < devices_.size() && last > done_; ++d) {
@@ -58,7 +58,7 @@ Tick World::next_event_tick(Tick limit) const {
   return last + 1;
 }
 
-/// Returns the tick to fast-forward to, or done_ if that is not worthwhile.
+/// Returns the tick to which to fast-forward, or done_ if that is not worthwhile.
 Tick World::last_tick_to_skip(Tick limit) {
   const Tick last = next_event_tick(limit) - 1;
   if (last - done_ >= kMinSkip) {

@@ -1,4 +1,4 @@
-// Handles the faults of a world: they are injected, wait for their moment, begin, end and are cleared.
+// Handles the faults of a world: they are injected, wait, begin, end and are cleared.
 #include <algorithm>
 #include <cstddef>
 #include <map>
@@ -72,7 +72,7 @@ void World::remove_fault(std::map<std::size_t, ArmedFault>::iterator fault) {
   settle_power(device);
 }
 
-/// Makes a watch if a fault waits or changes with time, and passes it to the stations.
+/// If a fault is waiting or changes with time, creates a watch and passes it to the stations.
 void World::arm_faults() {
   const auto needs_watch = [](const auto& entry) {
     return waits(entry.second.fault) || entry.second.fault.period_ticks != 0;
@@ -129,7 +129,7 @@ void World::settle_faults() {
   }
 }
 
-/// Applies the faults of adapters. If a line has several of one kind, the last one counts.
+/// Applies the faults of adapters. If a line has several faults of one kind, the last one counts.
 void World::apply_adapters() {
   for (const auto& line : lines_) {
     pty::Adapter adapter;
@@ -146,7 +146,7 @@ void World::apply_adapters() {
   }
 }
 
-/// Applies the faults of a device. If a place has several of one kind, the last one counts.
+/// Applies the faults of a device. If a place has several faults of one kind, the last one counts.
 void World::apply_faults(std::size_t device) {
   for (PlantAxis& plant : plants_[device]) {
     plant.set_faults({.slipped_pulses = plant.faults().slipped_pulses});

@@ -1,4 +1,4 @@
-// Loads programs into devices and gives them commands by name.
+// Loads programs into devices, and executes commands by name.
 #include <cstddef>
 #include <string_view>
 
@@ -16,7 +16,7 @@ namespace understudy::emulator::world {
 
 void World::load_program(std::size_t device, std::string_view text) {
   run_due_lines();
-  // Refused programs are reported too, whatever the reason, because the device may show the refusal.
+  // Refused programs are also reported, whatever the reason, because the device may show the refusal.
   const auto report = [&](bool is_refused) {
     if (devices_[device]->user_program() != nullptr) {
       notify([&](OutsideListener& listener) { listener.on_program(device, text, is_refused); });

@@ -1,4 +1,4 @@
-// SUPER-40NC's state as bytes, and back.
+// Converts SUPER-40NC's state to bytes and back.
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -32,7 +32,7 @@ std::string register_at_slot(std::size_t slot) {
 
 namespace {
 
-/// The largest sums of pulses and lengths.
+/// The limit for sums of pulses and lengths.
 constexpr std::int64_t kFar = std::int64_t{1} << 60;
 
 }  // namespace

@@ -1,4 +1,4 @@
-// All state of a SUPER-40NC, as one value: the states of its parts.
+// The whole state of a SUPER-40NC as one value: the states of its parts.
 #pragma once
 
 #include "emulator/models/super_40nc/axis/axis_state.h"

@@ -1,4 +1,4 @@
-// The fields of a SUPER-40NC's state (base/state/fields.h), in the order of the bytes.
+// The fields of a SUPER-40NC's state (base/state/fields.h), in the order of the saved bytes.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@
 namespace understudy {
 
 namespace emulator::models::super_40nc {
-/// Returns the name of the register at a slot of the image: "D9100", "M8000".
+/// Returns the name of the register at an image slot: "D9100", "M8000".
 std::string register_at_slot(std::size_t slot);
 /// Returns the number of fields of a part's state.
 template <class T, std::size_t count = 1>

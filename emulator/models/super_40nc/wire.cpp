@@ -1,4 +1,4 @@
-// Decides which replies a SUPER-40NC sends on the line, and to which addresses.
+// Decides which requests a SUPER-40NC answers, and at which addresses.
 #include "emulator/models/super_40nc/wire.h"
 
 #include <algorithm>
@@ -36,7 +36,7 @@ MapPolicy chosen_map_policy(const Device& device, MapPolicy policy) {
 }
 
 Addressing Super40nc::addressing(std::uint8_t address) const {
-  // D9000 is the station number; 0 is also a valid number, and the device answers it.
+  // D9000 is the station number. 0 is also a valid number, which the device answers.
   if (address == 0 && chose(option("station_rule", "0_is_never_answered")))
     return Addressing::execute_silently;
   const StoredRegister kept = stored_d(d9::kStation);
@@ -56,7 +56,7 @@ bool Super40nc::knows(std::uint8_t function) const {
   return function != kSeveralCoils || !chose(option("coils_at_once", "exception_1"));
 }
 
-/// The usual silence is 3.5 characters.
+/// By default, the silence is 3.5 characters.
 pty::SimTime Super40nc::end_silence(pty::SimTime usual) const {
   if (chose(option("frame_gap", "10_ms"))) return std::chrono::milliseconds(10);
   return chose(option("frame_gap", "1_5_characters")) ? usual * 3 / 7 : usual;

@@ -25,7 +25,7 @@ using Json = nlohmann::ordered_json;
 
 Json device_text(const DeviceSetup& device) {
   const DeviceSettings& settings = device.settings;
-  // Its final line end distinguishes it from a path.
+  // The final line ending distinguishes it from a path.
   const std::string_view description = device.model->description;
   Json text{{"model", description.empty() ? device.model->name : description}};
   if (settings.firmware != 0) text["firmware"] = version_text(settings.firmware);
@@ -44,7 +44,7 @@ Json device_text(const DeviceSetup& device) {
     }
   }
   if (!settings.program.empty()) {
-    // The final line end distinguishes it from a path.
+    // The final line ending distinguishes it from a path.
     const bool has_lines = settings.program.find('\n') != std::string::npos;
     text["program"] = has_lines ? settings.program : settings.program + "\n";
   }

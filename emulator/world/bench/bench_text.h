@@ -1,5 +1,5 @@
-// Writes a bench as text for parse_bench(), whatever it was made from. The text includes programs and
-// memories, and leaves out links, so it is the same bench in any folder.
+// Writes a bench as text for parse_bench(), whatever the source of the bench. The text includes programs and
+// memories but omits links, so it describes the same bench in any folder.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace understudy::emulator::world {
 
-/// Returns one line of JSON, which is also YAML. Two benches with the same text are equal.
+/// Returns a line of JSON, which is also YAML. Two benches that have the same text are equal.
 std::string to_text(const Bench& bench);
 
 }  // namespace understudy::emulator::world

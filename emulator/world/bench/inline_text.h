@@ -1,4 +1,4 @@
-// A text, such as a program, that is written inside another file.
+// A text, such as a program, that is written within another file.
 #pragma once
 
 #include <string>
@@ -9,14 +9,14 @@
 namespace understudy::emulator::world {
 
 struct InlineText {
-  FilePlace place;      // the value's place in the file
+  FilePlace place;      // the value's position in the file
   std::string field;    // the value's field in the file
-  int first_line = 0;   // where the text begins in the file; 0: its lines are not lines of the file
+  int first_line = 0;   // the line in the file where the text begins; 0: its lines are not lines of the file
   int indentation = 0;  // the indentation of those lines, in characters
 };
 
-/// Returns what is wrong with the text, at the exact line of the file if the text's lines are lines of the
-/// file.
+/// Returns what is wrong with the text. If the text's lines are lines of the file, the diagnostic has the
+/// exact line of the file.
 FileError::Diagnostic diagnostic_in(const InlineText& text, const ProgramMistake& mistake);
 
 }  // namespace understudy::emulator::world

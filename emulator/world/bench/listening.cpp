@@ -39,7 +39,7 @@ constexpr std::chrono::milliseconds kLongestTimeout = std::chrono::hours(1);
 struct SettingRow {
   std::string_view name;
   std::string_view expected;
-  // Returns false if the value is not as expected.
+  // Returns false if the value is not valid.
   bool (*set)(GatewaySettings& gateway, std::string_view value);
 };
 
@@ -98,7 +98,8 @@ int read_port(std::string_view text) {
   return static_cast<int>(*port);
 }
 
-/// Returns the host, or the default. An IPv6 address loses its brackets; '%' and an interface may follow it.
+/// Returns the host, or the default. The brackets of an IPv6 address are removed; '%' and an interface may
+/// follow the address.
 std::string read_host(std::string_view text) {
   if (text.empty()) return "127.0.0.1";
   if (text.starts_with('[')) {

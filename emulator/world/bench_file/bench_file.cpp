@@ -36,19 +36,19 @@ namespace understudy::emulator::world {
 
 namespace {
 
-constexpr std::string_view kTime = "time";  // conditions already use this name
+constexpr std::string_view kTime = "time";  // reserved for conditions
 
 class BenchReader {
  public:
-  /// Paths are relative to `folder`; links are relative to `links` if it is given. Paths are refused if there
-  /// is no folder.
+  /// Paths are relative to `folder`; links are relative to `links`, or by default also to `folder`. Without a
+  /// folder, paths are refused.
   explicit BenchReader(ModelList models, std::optional<std::string> folder, const std::string& links = "")
       : models_(models), folder_(std::move(folder)), links_(links.empty() ? folder_ : links) {}
 
   BenchReader(const BenchReader&) = delete;
   BenchReader& operator=(const BenchReader&) = delete;
 
-  /// Reads the bench. Throws all diagnostics, including those that are passed in.
+  /// Reads the bench. Throws all diagnostics, including those passed as an argument.
   Bench read(const YamlFields& root, Diagnostics diagnostics) {
     all_ = std::move(diagnostics);
     all_.require([&] { read_all(root); });
@@ -85,7 +85,7 @@ class BenchReader {
     }
   }
 
-  /// Adds a device, even if its name is wrong, so that the rest of it can be checked.
+  /// Adds a device even if its name is wrong, so that its other properties can be checked.
   std::size_t add_device(const std::string& name, const YamlFields& fields) {
     if (!name.empty()) names_.lose_device(name);
     DeviceSetup device = read_device(fields, name, folder_, models_, bench_, all_);
@@ -136,7 +136,7 @@ class BenchReader {
     bench_.lines.push_back(std::move(line));
   }
 
-  /// Reads the ports of a line, its speed and its timing.
+  /// Reads the ports, the speed and the timing of a line.
   void read_ports_of(const Keys& keys, LineSetup& line) {
     keys.read("link", [&](const YamlFields& field) { line.link = read_link(field, links_, bench_.lines); });
     keys.read("listen", [&](const YamlFields& field) { read_listen(field, bench_.lines, line, all_); });
@@ -190,8 +190,8 @@ class BenchReader {
     if (!is_here) numbered.push_back({station, device, address});
   }
 
-  /// Returns the port that a station names. The port must not be on another line, nor the device on this line
-  /// with another port.
+  /// Returns the port in a station's entry. The port must not already be on another line, and the device must
+  /// not already be on this line.
   std::size_t take_port(const YamlFields& station, std::size_t device, const LineSetup& line) {
     const Model& model = names_.model_of(device);
     const std::size_t port = read_port(station, model);
@@ -211,7 +211,7 @@ class BenchReader {
     return port;
   }
 
-  /// Gives address 1 to devices whose address neither the bench nor a register sets.
+  /// Assigns address 1 to devices whose address is set neither by the bench nor by a register.
   void give_usual_addresses() {
     for (DeviceSetup& device : bench_.devices) {
       const auto& numbers = device.model->line.station_numbers;
@@ -244,7 +244,8 @@ class BenchReader {
     if (all_.count() != before) names_.lose_part(name);
   }
 
-  /// Checks that no two contacts share an input, because the bench can move a switch to any input.
+  /// Checks that no two contacts are connected to the same input, because the bench can connect a switch to
+  /// any input.
   void require_own_inputs(const YamlFields& plant) const {
     std::map<std::pair<std::size_t, int>, std::string> taken;
     for (const MachineSetup& machine : bench_.machines) {
@@ -272,7 +273,7 @@ class BenchReader {
 
   // --- checks that need the model ----------------------------------------------------------------
   void check_devices() {
-    // A station that could not be read may have named the device.
+    // A station that could not be read may refer to the device.
     const bool has_all_lines = all_.count() == 0;
     for (std::size_t i = 0; i < bench_.devices.size(); ++i) {
       all_.attempt([&] {

@@ -1,5 +1,5 @@
-// Finds names in the part of a bench that has been read so far. It also has the names of parts that could not
-// be read; references to these are not reported as errors.
+// Finds names in the part of a bench that has been read so far. It also contains the names of parts that
+// could not be read, because references to these are not reported as errors.
 #pragma once
 
 #include <set>
@@ -20,16 +20,16 @@ class BenchNames {
   // --- what could not be read --------------------------------------------------------------------
   void lose_device(const std::string& name) { lost_devices_.insert(name); }
   void find_device_again(const std::string& name) { lost_devices_.erase(name); }
-  /// Notes a part that could not be read: a line, a machine ("feeder.A"), or a part of one.
+  /// Records a part that could not be read: a line, a machine ("feeder.A"), or a part of a machine.
   void lose_part(const std::string& name) { lost_parts_.insert(name); }
   void find_part_again(const std::string& name) { lost_parts_.erase(name); }
   bool is_lost_part(const std::string& name) const { return lost_parts_.contains(name); }
-  /// Returns true if a text names a part that could not be read.
+  /// Returns true if a text contains the name of a part that could not be read.
   bool names_lost(std::string_view text) const;
-  /// Returns true if a value of a map names a part that could not be read.
+  /// Returns true if a value in a map contains the name of a part that could not be read.
   bool has_lost(const YamlFields& map) const;
 
-  // --- what was read: these fail with the names that are valid, or throw AlreadyReported ----------
+  // --- what was read: these fail with a list of valid names, or throw AlreadyReported ------------
   /// Returns -1 if there is no such device.
   int find_device(const std::string& name) const;
   std::size_t require_device(const YamlFields& field, const std::string& name) const;

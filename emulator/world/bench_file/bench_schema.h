@@ -1,4 +1,4 @@
-// Declares the keys of a bench file (docs/bench.md) and the schemas of their values.
+// The keys of a bench file (docs/bench.md), and the schemas of their values.
 #pragma once
 
 #include <array>
@@ -8,14 +8,14 @@
 
 namespace understudy::emulator::world {
 
-inline constexpr std::int64_t kFarthestPulse = 1'000'000'000'000;  // further than any counter
+inline constexpr std::int64_t kFarthestPulse = 1'000'000'000'000;  // beyond any counter
 
 inline constexpr Schema kVersionSchema = integer_schema(1, 1);
 inline constexpr Key kVersionKey{"understudy", "The version of the format.", &kVersionSchema, true};
 
 // --- devices -------------------------------------------------------------------------------------
 inline constexpr Schema kRegisterValueSchema = integer_schema(INT32_MIN, UINT32_MAX);
-// A text is a real number or the program; a map has blocks of text of one kind, by name.
+// A text is a real number or the program. A map contains text blocks of one kind, by name.
 inline constexpr std::array<const Schema*, 3> kNvValueAlternatives{&kRegisterValueSchema, &kText,
                                                                    &kTextByName};
 inline constexpr Schema kNvValueSchema = any_of_schemas(kNvValueAlternatives);
@@ -167,7 +167,7 @@ inline constexpr Key kSeedKey{"seed", "The seed of all random choices.", &kSeedS
 
 inline constexpr std::array kBenchKeys{kVersionKey, kLinesKey,  kDevicesKey, kPlantKey,
                                        kWiresKey,   kInputsKey, kFaultsKey,  kSeedKey};
-/// A bench inside another file does not need a version.
+/// A bench within another file does not need a version.
 inline constexpr std::array kInlineBenchKeys{kLinesKey,  kDevicesKey, kPlantKey, kWiresKey,
                                              kInputsKey, kFaultsKey,  kSeedKey};
 inline constexpr Schema kBenchSchema = keys_schema(kBenchKeys);

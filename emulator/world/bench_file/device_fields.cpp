@@ -34,7 +34,8 @@ namespace understudy::emulator::world {
 
 namespace {
 
-// The limit leaves room for the files that are named after lines and devices: ports and memories.
+// The limit leaves room for the names of files that are derived from the names of lines and devices: ports
+// and memories.
 constexpr std::size_t kLongestName = 100;
 
 double require_real(const YamlFields& field) {
@@ -42,7 +43,7 @@ double require_real(const YamlFields& field) {
   field.fail(understudy::quoted(field.text()) + " is not a number; expected one");
 }
 
-/// Reads the path of a listing, or the listing itself if the text has several lines.
+/// Reads the path of a listing, or, if the text has several lines, the listing itself.
 void read_program(const YamlFields& field, const std::optional<std::string>& folder, Bench& bench,
                   DeviceSetup& device) {
   DeviceSettings& settings = device.settings;
@@ -62,7 +63,7 @@ void read_program(const YamlFields& field, const std::optional<std::string>& fol
   bench.files.push_back({path, "the program of " + understudy::quoted(settings.name)});
 }
 
-/// Reads a value of a model without registers: the program, a whole number, or a real one (which has a
+/// Reads a value for a model without registers: the program, an integer, or a real number (which contains a
 /// point).
 void read_value_of_memory(const std::string& name, const YamlFields& value, NvImage& image) {
   const std::string text = value.text();
@@ -76,7 +77,7 @@ void read_value_of_memory(const std::string& name, const YamlFields& value, NvIm
   }
 }
 
-/// Reads the blocks of text of one kind, by name.
+/// Reads the text blocks of one kind, by name.
 void read_blocks(const std::string& kind, const YamlFields& entries, NvImage& image) {
   entries.require_map();
   auto& of_kind = image.blocks[kind];
@@ -92,8 +93,8 @@ bool is_register(const Model& model, std::string_view name) {
   return find_register(model, name, model.firmwares.back()).has_value();
 }
 
-/// Reads the registers and blocks of a memory whose content the bench gives. Such a memory has no file, so
-/// changes last only for the run.
+/// Reads the registers and blocks of a memory whose content is in the bench file. Such a memory has no file
+/// of its own, so changes are lost after the run.
 NvImage read_memory(const YamlFields& field, const Model& model, Diagnostics& diagnostics) {
   NvImage image{.model = std::string(model.name), .firmware = {}, .registers = {}};
   diagnostics.attempt([&] { field.require_map(); });
@@ -114,7 +115,7 @@ NvImage read_memory(const YamlFields& field, const Model& model, Diagnostics& di
   return image;
 }
 
-/// Reads the path of a memory image, which no other device may have.
+/// Reads the path of a memory image, which no other device may use.
 void read_nv_path(const YamlFields& field, const std::optional<std::string>& folder, const Bench& bench,
                   DeviceSetup& device) {
   device.nv_path = path_in(folder, field);
@@ -126,7 +127,7 @@ void read_nv_path(const YamlFields& field, const std::optional<std::string>& fol
   }
 }
 
-/// Reads the description of a model. Its errors are reported at their places in this file.
+/// Reads the description of a model. Its errors are reported at their positions in this file.
 const Model& require_inline_model(ModelList models, const YamlFields& field, const std::string& name) {
   try {
     return models.files->parse(field.text(), name);
@@ -168,7 +169,7 @@ const Model& require_model(ModelList models, const YamlFields& field,
   field.fail(understudy::quoted(name) + " is not a model" + suggestion(name, names));
 }
 
-/// Reads the registers to set. If the model is unknown, it only checks that the values are numbers.
+/// Reads the registers to set. If the model is unknown, only checks that the values are numbers.
 void read_set(const YamlFields& field, const Model* model, DeviceSettings& settings,
               Diagnostics& diagnostics) {
   diagnostics.attempt([&] { field.require_map(); });
@@ -185,8 +186,8 @@ void read_set(const YamlFields& field, const Model* model, DeviceSettings& setti
   }
 }
 
-/// Removes the setting that the model refused, so that the others can be checked. Returns false if it was not
-/// set.
+/// Removes the setting that the model refused, so that the other settings can be checked. Returns false if it
+/// was not set.
 bool take_away(const SettingError& error, DeviceSettings& settings, const Model& model) {
   const std::string& setting = error.setting;
   if (const auto* const of_entry = dynamic_cast<const SettingEntryError*>(&error)) {
@@ -197,14 +198,14 @@ bool take_away(const SettingError& error, DeviceSettings& settings, const Model&
     return std::erase_if(settings.set, is_it) + std::erase_if(settings.assignments, is_it) > 0;
   }
   if (setting == "firmware") return std::exchange(settings.firmware, 0) != 0;
-  if (setting == "modules") {  // sets the maximum, so that later messages about modules are right
+  if (setting == "modules") {  // set the maximum, so that later messages about modules are correct
     return std::exchange(settings.modules, model.max_modules) != model.max_modules;
   }
   if (setting == "address") return std::exchange(settings.address, std::nullopt).has_value();
   return !std::exchange(settings.bauds, {}).empty();  // the DIP switches require another speed
 }
 
-/// Reports the error at the entry, or at the memory if the entry has no place of its own.
+/// Reports the error at the entry, or, if the entry has no position of its own, at the memory.
 [[noreturn]] void fail(const YamlFields& nv, const NvEntryError& error) {
   if (!nv.is_map()) nv.fail(error.what());
   const bool is_block = error.list == NvEntryError::List::blocks;
@@ -215,8 +216,8 @@ bool take_away(const SettingError& error, DeviceSettings& settings, const Model&
   nv.fail(error.what());
 }
 
-/// Reports the error at the setting, or at the device if the setting has no place. Reports the speed of a
-/// line at the station on that line.
+/// Reports the error at the setting, or, if the setting has no position, at the device. The speed of a line
+/// is reported at the station on that line.
 [[noreturn]] void fail(const DevicePlaces& places, const SettingError& error, const Model& model) {
   const YamlFields& device = places.device;
   if (error.setting == "baud") {

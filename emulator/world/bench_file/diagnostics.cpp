@@ -38,14 +38,14 @@ namespace {
 
 constexpr std::string_view kAnd = "and ";
 
-/// Returns the line that replaces the errors that are not reported.
+/// Returns the line that represents the errors that are not reported.
 FileError::Diagnostic word_of_more(std::size_t more) {
   const FileError word(std::string(kAnd) + std::to_string(more) + " more; the first " +
                        std::to_string(Diagnostics::kMaxReported) + " are shown");
   return word.diagnostics().front();
 }
 
-/// Returns the number in a line of word_of_more(), or 0.
+/// Returns the number in a line from word_of_more(), or 0.
 std::size_t more_in(const FileError::Diagnostic& diagnostic) {
   if (!diagnostic.place.file.empty() || !diagnostic.text.starts_with(kAnd)) return 0;
   const std::string number =
@@ -71,7 +71,7 @@ void Diagnostics::add(const FileError& error, const std::string& suffix) {
 
 void Diagnostics::throw_if_any() const {
   if (diagnostics_.empty()) return;
-  std::map<std::string, std::size_t> files;  // in the order of their first diagnostics
+  std::map<std::string, std::size_t> files;  // in the order of the files' first diagnostics
   for (const FileError::Diagnostic& diagnostic : diagnostics_)
     files.emplace(diagnostic.place.file, files.size());
   const auto place = [&](const FileError::Diagnostic& diagnostic) {

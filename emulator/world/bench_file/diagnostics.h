@@ -13,25 +13,25 @@
 
 namespace understudy::emulator::world {
 
-/// Ends the reading, because what follows would be wrong for the same reason. It passes through every
+/// Ends reading, because everything that follows would be wrong for the same reason. It passes through every
 /// attempt().
 struct LastError : FileError {
   using FileError::FileError;
 };
 
-/// Converts the mistakes of a program to an error about the program's own file.
+/// Converts the mistakes in a program to an error about the file of the program.
 FileError program_diagnostics(const ProgramError& error, const std::string& file);
-/// Converts the mistakes of a program inside a file.
+/// Converts the mistakes in a program that is written within a file.
 FileError program_diagnostics(const ProgramError& error, const InlineText& text);
 
-/// Thrown if a part that is referred to could not be read. That error has been reported already.
+/// Thrown if a reference leads to a part that could not be read. The error in that part was already reported.
 struct AlreadyReported {};
 
 class Diagnostics {
  public:
   static constexpr std::size_t kMaxReported = 20;
 
-  /// Returns true if `read` succeeded. If it did not, keeps its error.
+  /// Returns true if `read` succeeds. Otherwise, keeps its error.
   template <typename Read>
   bool attempt(const Read& read) {
     try {
@@ -51,16 +51,16 @@ class Diagnostics {
   void require(const Read& read) {
     try {
       attempt(read);
-    } catch (const LastError&) {  // already added
+    } catch (const LastError&) {  // the error was already added
     }
     throw_if_any();
   }
-  /// Adds an error, with `suffix` appended to each line, unless it has been reported already. Throws
-  /// LastError if there are too many.
+  /// Adds an error that has not been reported yet, with `suffix` appended to each line. Throws LastError if
+  /// there are too many errors.
   void add(const FileError& error, const std::string& suffix = "");
   std::size_t count() const { return diagnostics_.size(); }
-  /// If there are errors, throws a FileError with the first ones in the order of the file; several files keep
-  /// the order in which they were reported.
+  /// If there are errors, throws a FileError that contains the first ones in the order of the file. If there
+  /// are several files, they have the order in which they were reported.
   void throw_if_any() const;
 
  private:
@@ -68,7 +68,7 @@ class Diagnostics {
 
   std::vector<FileError::Diagnostic> diagnostics_;
   std::set<std::string> reported_;
-  std::size_t more_ = 0;  // errors that the reports of parts left out
+  std::size_t more_ = 0;  // errors that the reports of parts omitted
 };
 
 }  // namespace understudy::emulator::world

@@ -26,7 +26,7 @@ namespace understudy::emulator::world {
 
 namespace {
 
-/// Adds the fields to `text`, except those that could not be read.
+/// Adds the fields to `text`, except the fields that could not be read.
 void read_text_of_fault(const YamlFields& fields, std::string_view other_key, FaultText& text,
                         Diagnostics& diagnostics) {
   diagnostics.attempt([&] { fields.require_map(); });
@@ -54,7 +54,7 @@ void check_condition_of(const YamlFields& when, const Inventory& inventory) {
   try {
     set_trigger_field(trigger, "when", when.text());
   } catch (const NameError&) {
-    throw AlreadyReported();  // reported with the fault
+    throw AlreadyReported();  // is reported with the fault
   }
   try {
     check_condition(inventory, trigger.when);
@@ -88,7 +88,7 @@ std::optional<Fault> read_fault(const YamlFields& fields, const KnownDevices& de
   if (!has_kind) return std::nullopt;
   bool is_whole = diagnostics.count() == before;
   bool has_place = true;
-  // Removes a wrong place or field, so that the rest can be checked.
+  // Removes a wrong place or field, so that everything else can be checked.
   while (true) {
     try {
       if (!has_place) {
@@ -107,7 +107,7 @@ std::optional<Fault> read_fault(const YamlFields& fields, const KnownDevices& de
       if (!fields.at(text.kind).is_scalar()) continue;
       diagnostics.attempt([&] { fields.fail(error.what()); });
     } catch (const NameError& error) {
-      // A removed field is not reported as missing.
+      // A field that was removed is not reported as missing.
       if (is_whole) diagnostics.attempt([&] { fields.fail(error.what()); });
       return std::nullopt;
     }

@@ -13,16 +13,16 @@
 
 namespace understudy::emulator::world {
 
-/// Reads one entry of `inputs`: "feeder.DIN_10: on", "feeder.AIN_A: 2.5V".
+/// Reads an entry of `inputs`: "feeder.DIN_10: on", "feeder.AIN_A: 2.5V".
 InputSetup read_input(const YamlFields& field, const std::string& name, const KnownDevices& devices);
 
-/// Reads one element of `faults`: "{ lost_steps: feeder.A, one_in: 50 }". `other_key` is allowed and left to
+/// Reads an element of `faults`: "{ lost_steps: feeder.A, one_in: 50 }". `other_key` is allowed, but left to
 /// other readers. If anything is wrong, keeps all errors and returns nothing.
 std::optional<Fault> read_fault(const YamlFields& fields, const KnownDevices& devices,
                                 Diagnostics& diagnostics, std::string_view other_key = {});
 
-/// Reports a fault that the bench cannot have. Its condition is checked even if the fault itself could not
-/// be read.
+/// Reports a fault that is impossible on this bench. The condition is checked even if the fault itself could
+/// not be read.
 void require_possible(const YamlFields& fields, const Inventory& inventory, const std::optional<Fault>& fault,
                       Diagnostics& diagnostics);
 

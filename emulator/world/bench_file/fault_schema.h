@@ -1,5 +1,5 @@
-// Declares the keys of a fault in a file, for editors: one kind with its place, the kind's fields, and the
-// trigger's fields. The readers check more (find_fault).
+// The keys of a fault in a file, for editors: one kind with its place, the fields of the kind, and the fields
+// of the trigger. The readers check more (find_fault).
 #pragma once
 
 #include <algorithm>

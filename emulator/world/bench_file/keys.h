@@ -10,7 +10,7 @@
 
 namespace understudy::emulator::world {
 
-/// An error in one key does not hide errors in the next.
+/// An error in one key does not hide errors in other keys.
 class Keys {
  public:
   Keys(const YamlFields& fields, std::span<const Key> known, Diagnostics& diagnostics)

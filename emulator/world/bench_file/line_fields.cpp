@@ -23,7 +23,7 @@ namespace understudy::emulator::world {
 
 namespace {
 
-constexpr std::size_t kLongestLinkName = 200;  // leaves room for the lock next to the link
+constexpr std::size_t kLongestLinkName = 200;  // leaves room for the name of the lock file
 
 }  // namespace
 

@@ -22,15 +22,15 @@ bool read_echo(const YamlFields& echo);
 
 SimTime read_byte_timeout(const YamlFields& timeout);
 
-/// Reads one address or several into `line`. No other line may listen on any of them.
+/// Reads one or several addresses into `line`. No other line may listen on any of these addresses.
 void read_listen(const YamlFields& listen, const std::vector<LineSetup>& lines, LineSetup& line,
                  Diagnostics& diagnostics);
 
-/// Checks that a line's ports fit together and suit its stations. `fields` are those of the line; its
-/// stations have been read.
+/// Checks that the ports of a line are consistent and match its stations. `fields` are those of the line,
+/// whose stations have already been read.
 void require_ports(const YamlFields& fields, const LineSetup& line, const Bench& bench);
 
-/// Reads the path of a link, relative to `folder`. No other line may have the same link.
+/// Reads the path of a link, which is relative to `folder`. No other line may have the same link.
 std::string read_link(const YamlFields& link, const std::optional<std::string>& folder,
                       const std::vector<LineSetup>& lines);
 

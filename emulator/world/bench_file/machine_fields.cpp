@@ -31,7 +31,7 @@ PulseSpan read_span(const YamlFields& field, Diagnostics& diagnostics) {
   return span;
 }
 
-/// Reads one of two words. Returns true for the first.
+/// Reads one of two words. Returns true for the first word.
 bool read_word(const YamlFields& field, std::string_view first, std::string_view second) {
   const std::string word = field.text();
   if (word != first && word != second) {
@@ -51,7 +51,7 @@ DriveSetup read_drive(const YamlFields& drive, Diagnostics& diagnostics) {
 }
 
 /// Reads the name of a digital input of the machine's own controller. (Only wires lead to other controllers.)
-/// If the model is unknown, any name will do.
+/// If the model is unknown, any name is accepted.
 int read_own_input(const YamlFields& field, const Model* model) {
   const std::string name = field.text();
   if (model == nullptr) return -1;
@@ -64,7 +64,7 @@ int read_own_input(const YamlFields& field, const Model* model) {
   field.fail(quoted(name) + " is not an input of " + std::string(model->name) + suggestion(name, names));
 }
 
-/// Reads an index. Its period is one revolution of the motor by default.
+/// Reads an index. By default, its period is one revolution of the motor.
 IndexSetup read_index(const YamlFields& index, const Model* model, int pulses_per_revolution,
                       Diagnostics& diagnostics) {
   const Keys keys(index, kIndexKeys, diagnostics);
@@ -98,7 +98,7 @@ void read_encoder(const YamlFields& encoder, const Model* model, PlantSetup& set
     if (setup.pulses_per_revolution > 0 || encoder.has("motor_pulses_per_revolution")) return;
     if (!setup.has_wheel)
       encoder.fail("needs the pulses per revolution of the motor; expected `motor_pulses_per_revolution`");
-    setup.pulses_per_revolution = 1;  // no motor turns a wheel; 1 avoids a division by zero
+    setup.pulses_per_revolution = 1;  // a wheel has no motor; 1 avoids a division by zero
   });
   keys.read("reversed",
             [&](const YamlFields& field) { setup.encoder_reversed = read_word(field, "true", "false"); });

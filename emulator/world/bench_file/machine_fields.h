@@ -12,8 +12,8 @@ namespace understudy::emulator::world {
 /// Returns the number of the axis with this name.
 int require_axis(const YamlFields& fields, const Model& model, const std::string& name);
 
-/// Reads one entry of `plant`: the machine on an axis. Keeps all errors. `model` and `axis` are null if the
-/// entry's name does not determine them.
+/// Reads an entry of `plant`, which is the machine on an axis. Keeps all errors. `model` and `axis` are null
+/// if the entry's name does not determine them.
 PlantSetup read_machine(const YamlFields& fields, const Model* model, const AxisRow* axis,
                         Diagnostics& diagnostics);
 

@@ -1,4 +1,4 @@
-// Warnings about a bench's programs that load but look wrong (ProgramLanguage::warnings).
+// Warnings about programs that load but look wrong (ProgramLanguage::warnings).
 #pragma once
 
 #include <string>
@@ -10,11 +10,11 @@
 
 namespace understudy::emulator::world {
 
-/// Returns a line for each warning, at its place in the program's file, or in the bench if it contains the
-/// program.
+/// Returns a line for each warning, with its position in the program's file or, if the bench contains the
+/// program, in the bench.
 std::vector<FileError::Diagnostic> program_warnings(const Bench& bench);
-/// Returns the warnings for a text that loads into a device of the bench. `inside` is its place if it is not
-/// a file of its own.
+/// Returns the warnings for a text that loads into a device of the bench. `inside` is the place of the text
+/// if it is not a separate file.
 std::vector<FileError::Diagnostic> program_warnings(const DeviceSetup& device, const std::string& text,
                                                     const std::string& file, const InlineText* inside);
 

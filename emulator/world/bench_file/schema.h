@@ -1,5 +1,5 @@
 // The vocabulary for declaring a file format: its keys and the schemas of their values. Readers use it to
-// recognize their keys; `understudy schema` turns it into a JSON Schema.
+// recognize their keys, and `understudy schema` converts it to a JSON Schema.
 #pragma once
 
 #include <cstdint>
@@ -13,13 +13,13 @@ struct Key;
 /// Describes the values that a key accepts.
 struct Schema {
   enum class Kind : std::uint8_t {
-    text,      // any scalar; the reader checks it
+    text,      // any scalar, which the reader checks
     integer,   // from `lowest` to `highest`, decimal or 0x...
     level,     // on or off
     duration,  // 250ms
     words,     // one of `words`
-    list,      // values of `of`: `count` of them, or one or more if it is 0
-    names,     // a map from names (any names, or those in the bench) to `of`
+    list,      // a list of `of`, with `count` elements, or with at least one if `count` is 0
+    names,     // a map from names (any names, or names in the bench) to `of`
     keys,      // a map with these `keys`
     either,    // one of `alternatives`
     steps,     // the steps of a scenario
@@ -31,7 +31,7 @@ struct Schema {
   int count = 0;
   std::span<const Key> keys{};
   std::span<const Schema* const> alternatives{};
-  /// For `text` and `names`: the kind of names in the bench. A schema for one bench lists them.
+  /// For `text` and `names`: the kind of names in the bench. A schema for a specific bench lists these names.
   enum class Of : std::uint8_t {
     anything,
     devices,
@@ -42,13 +42,13 @@ struct Schema {
     turned,
     registers
   } names_of = Of::anything;
-  /// Required keys may be missing, at any depth, because they are elsewhere in the file.
+  /// Required keys may be missing at any depth, because they are in another place of the file.
   bool is_part = false;
 };
 
 struct Key {
   std::string_view key;
-  std::string_view doc;  // a sentence for the author of the file
+  std::string_view doc;  // a sentence for users who write the file
   const Schema* schema = nullptr;
   bool required = false;
 };
@@ -59,7 +59,7 @@ constexpr Schema integer_schema(std::int64_t lowest, std::int64_t highest) {
 constexpr Schema words_schema(std::span<const std::string_view> words) {
   return {.kind = Schema::Kind::words, .words = words};
 }
-/// The results refer to the arguments of these functions, which must outlive them.
+/// The results refer to the arguments of these functions, so the arguments must outlive them.
 constexpr Schema list_schema(const Schema& of, int count = 0) {
   return {.kind = Schema::Kind::list, .of = &of, .count = count};
 }

@@ -72,7 +72,7 @@ std::optional<int> read_address(const YamlFields& station, DeviceSetup& device) 
 
 namespace {
 
-/// Returns true if the bench sets the register in which the device keeps its number.
+/// Returns true if the bench sets the register in which the device stores its number.
 bool sets_number(const DeviceSetup& device) {
   const Model& model = *device.model;
   const Firmware firmware = device.settings.firmware != 0 ? device.settings.firmware : model.firmwares.back();

@@ -28,7 +28,7 @@ struct MachinePlace {
   std::string word;       // "upper_limit"
 };
 
-/// Returns nothing if the name does not begin with an axis, and so must be a terminal's.
+/// Returns nothing if the name does not begin with an axis, and therefore must be a terminal.
 std::optional<MachinePlace> find_machine_place(const YamlFields& wire, const std::string& name,
                                                const BenchNames& names, const char* example) {
   const std::size_t dot = name.find_last_of('.');
@@ -39,7 +39,7 @@ std::optional<MachinePlace> find_machine_place(const YamlFields& wire, const std
   return MachinePlace{device, axis, name.substr(0, dot), name.substr(dot + 1)};
 }
 
-/// Returns the index of the place's word in `words`. `what` describes them in the message.
+/// Returns the index of the place's word in `words`. `what` is the description of the words in the message.
 template <class Names>
 std::size_t find_word(const YamlFields& wire, const MachinePlace& place, const Names& words,
                       const char* what) {
@@ -51,7 +51,7 @@ std::size_t find_word(const YamlFields& wire, const MachinePlace& place, const N
   return static_cast<std::size_t>(found - words.begin());
 }
 
-/// Reports an error unless the bench has a machine at that place and `has` returns true for it.
+/// Reports an error unless the bench has a machine at that place for which `has` returns true.
 template <class Has>
 void require_machine(const YamlFields& wire, const MachinePlace& place, const Bench& bench,
                      const BenchNames& names, const std::string& what, Has has) {

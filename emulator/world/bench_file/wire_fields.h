@@ -7,8 +7,8 @@
 
 namespace understudy::emulator::world {
 
-/// Reads one element of `wires`: "feeder.DOUT_4 -> turner.DIN_10", "feeder.A.home -> turner.DIN_10". The
-/// bench's devices and machines must have been read. Keeps the errors of both ends.
+/// Reads an element of `wires`: "feeder.DOUT_4 -> turner.DIN_10", "feeder.A.home -> turner.DIN_10". The
+/// bench's devices and machines must already have been read. Keeps the errors of both ends.
 WireSetup read_wire(const YamlFields& wire, const Bench& bench, const BenchNames& names,
                     Diagnostics& diagnostics);
 

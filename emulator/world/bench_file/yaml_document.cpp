@@ -36,7 +36,7 @@ std::string_view line_at(std::string_view text, int line) {
   return found.substr(0, found.find_last_not_of('\r') + 1);
 }
 
-/// The place in a text where the library stopped.
+/// Where in a text the library stopped.
 struct Stop {
   YAML::Mark mark;
   std::string_view line;
@@ -57,7 +57,7 @@ struct Stop {
   }
   bool has(std::string_view part) const { return line.find(part) != std::string_view::npos; }
   bool has_before(std::string_view part) const { return before.find(part) != std::string_view::npos; }
-  /// Returns true if only blanks, and perhaps the first letter, come before the place.
+  /// Returns true if only blanks, and perhaps the first letter, precede the place.
   bool is_at_begin() const { return mark.column <= static_cast<int>(indentation().size()) + 1; }
 };
 
@@ -67,7 +67,7 @@ bool has_second_colon(const Stop& stop) {
   const std::size_t colon = stop.line.find(": ");
   return colon != std::string_view::npos && static_cast<int>(colon) + 1 < stop.mark.column;
 }
-/// Returns true if a key has no blank after its colon: "model:simple2-r3".
+/// Returns true if no blank follows the colon of a key: "model:simple2-r3".
 bool is_glued(std::string_view line) {
   const auto is_of_name = [](char c) {
     return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-' || c == '.';
@@ -88,7 +88,7 @@ bool continues(const Stop& stop) {
 bool is_in_line(const Stop& stop) { return !stop.is_at_begin(); }
 bool always(const Stop& /*stop*/) { return true; }
 
-/// Replaces a message of the library with plain words. The first row that fits is used.
+/// Replaces a message from the library with plain words. The first matching row is used.
 struct PlainWords {
   std::string_view library;  // the beginning of the library's message; empty: any message
   bool (*fits)(const Stop& stop);
@@ -156,9 +156,9 @@ FileError not_yaml(const Stop& stop, const std::string& file, const std::string&
           what + ": is not YAML: " + words + (has_text ? "  (the line is " + quoted(stop.line) + ")" : "")};
 }
 
-/// Makes the nodes of a document as the parser passes through it, and detects the beginning of a second one.
-/// The library never stops making documents at a character that cannot begin one, so it must not be asked for
-/// another.
+/// Creates the nodes of a document while the parser reads it, and detects the beginning of a second document.
+/// Do not ask the library for another document: at a character that cannot begin a document, it would never
+/// stop creating them.
 class DocumentBuilder : public YAML::EventHandler {
  public:
   explicit DocumentBuilder(std::string_view text) : text_(text) {}
@@ -202,8 +202,8 @@ class DocumentBuilder : public YAML::EventHandler {
     put(&node);
     return node;
   }
-  /// Records where the lines of a block are, if the scalar is one whose first line determines its
-  /// indentation.
+  /// If the first line of a block scalar determines its indentation, records which lines of the file belong
+  /// to it.
   void note_block(const YAML::Mark& mark, YamlNode& node) const {
     const std::string_view rest = text_.substr(std::min(static_cast<std::size_t>(mark.pos), text_.size()));
     const std::size_t end = rest.find('\n');
@@ -224,15 +224,15 @@ class DocumentBuilder : public YAML::EventHandler {
 
   std::string_view text_;
   std::shared_ptr<std::deque<YamlNode>> nodes_ = std::make_shared<std::deque<YamlNode>>(1);
-  const YamlNode* root_ = &nodes_->front();  // an empty node if the text is empty
+  const YamlNode* root_ = &nodes_->front();  // empty if the text is empty
   std::vector<YamlNode*> open_;
   std::map<YAML::anchor_t, const YamlNode*> anchors_;
   bool has_begun_ = false;
   YAML::Mark last_text_ = YAML::Mark::null_mark();
 };
 
-/// Blanks the comment lines at the beginning of the text, because the library reads comments character by
-/// character, and many files begin with a page of them.
+/// Replaces the comment lines at the beginning of the text with blanks, because the library reads comments
+/// character by character, and many files begin with a page of comments.
 std::string without_first_remarks(const std::string& text) {
   std::string lines;
   std::size_t at = 0;
@@ -245,8 +245,8 @@ std::string without_first_remarks(const std::string& text) {
   return lines + text.substr(at);
 }
 
-/// Returns true if a quote at the beginning of `text` is closed. In double quotes, a backslash escapes any
-/// character; in single quotes, two quotes stand for one.
+/// Returns true if the quote at the beginning of `text` is closed. In double quotes, a backslash escapes any
+/// character; in single quotes, two quotes represent one.
 bool is_closed(std::string_view text) {
   const char quote = text.front();
   for (std::size_t at = 1; at < text.size(); ++at) {
@@ -260,7 +260,8 @@ bool is_closed(std::string_view text) {
   return false;
 }
 
-/// Reports a quoted text that is not closed. The library accepts the end of the file as its end.
+/// Reports a quoted text that is not closed, because the library accepts the end of the file as the closing
+/// quote.
 void require_closed_quote(const std::string& text, const YAML::Mark& mark, const std::string& file,
                           const std::string& what) {
   if (mark.is_null()) return;

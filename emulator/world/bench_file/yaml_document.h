@@ -1,4 +1,5 @@
-// Parses the single document of a YAML text. If the text is not YAML, throws an error of one plain line.
+// Parses a YAML text that contains a single document. If the text is not YAML, throws an error that consists
+// of one plain line.
 #pragma once
 
 #include <cstdint>
@@ -8,14 +9,14 @@
 
 namespace understudy::emulator::world {
 
-/// A YAML node. An alias is the same node as the one that it names, so a node may be in several places, and
-/// even inside itself.
+/// A YAML node. An alias is the same node as its anchor, so a node may be in several places, and even inside
+/// itself.
 struct YamlNode {
   enum class Kind : std::uint8_t { nothing, scalar, list, map } kind = Kind::nothing;
   int line = 0;  // counted from 0
   int column = 0;
-  /// For a block (`|`): its first line, counted from 0, and the blanks before each of its lines. 0: the
-  /// scalar's lines are not lines of the file.
+  /// For a block (`|`): its first line, counted from 0, and the number of blanks that precede each of its
+  /// lines. 0: the lines of the scalar are not lines of the file.
   int text_line = 0;
   int text_column = 0;
   std::string scalar{};
@@ -23,8 +24,8 @@ struct YamlNode {
 };
 
 /// Returns the root of the text's single document, which may be of any kind. Messages call the document
-/// `what`. A second document is refused where it begins. Throws FileError. All nodes live as long as any of
-/// them is held.
+/// `what`. A second document is refused at its beginning. Throws FileError. All nodes live as long as one of
+/// them is in use.
 std::shared_ptr<const YamlNode> parse_yaml(const std::string& text, const std::string& file,
                                            const std::string& what);
 

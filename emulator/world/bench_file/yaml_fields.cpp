@@ -74,7 +74,7 @@ YamlFields YamlFields::with_rule(const ScalarRule* rule) const {
 
 namespace {
 
-/// Owns the nodes of a joined map, and the documents that its parts belong to.
+/// Owns the nodes of a joined map, and the documents to which its parts belong.
 struct JoinedNodes {
   std::shared_ptr<const YamlNode> own;
   std::shared_ptr<const YamlNode> defaults;
@@ -95,7 +95,7 @@ const YamlNode* value_in(const YamlNode& map, const YamlNode& key) {
   return nullptr;
 }
 
-/// The depth is limited because an alias may be inside the node that it names.
+/// The depth is limited because a node may contain an alias of itself.
 constexpr int kMaxJoinedDepth = 32;
 
 const YamlNode* joined(const YamlNode& own, const YamlNode& defaults, JoinedNodes& nodes, int depth = 0) {

@@ -1,4 +1,5 @@
-// Reads YAML with errors that name file, line and field. It hides yaml-cpp, which is slow to compile.
+// Reads YAML. Its errors include the file, line and field. This header hides yaml-cpp, which is slow to
+// compile.
 #pragma once
 
 #include <cstdint>
@@ -20,12 +21,12 @@ namespace understudy::emulator::world {
 
 struct YamlNode;  // yaml_document.h
 
-/// A rule that is applied to every scalar, including keys, before it is read.
+/// A rule that is applied to every scalar, including keys, before the scalar is read.
 class ScalarRule {
  public:
   virtual ~ScalarRule() = default;
-  /// Called only for texts that contain `${`. Throws std::runtime_error with one line for a text that it
-  /// cannot accept.
+  /// Called only for texts that contain `${`. Throws std::runtime_error with a one-line message for a text
+  /// that it cannot accept.
   virtual std::string apply(const std::string& written) const = 0;
 };
 
@@ -33,8 +34,8 @@ class ScalarRule {
 /// "file:line:column: field: what".
 class YamlFields {
  public:
-  /// Returns the single document of a text, which must be a map. Messages call it `what`; the one for an
-  /// empty file says what was `expected`.
+  /// Returns the single document of a text, which must be a map. Messages call it `what`; the message for an
+  /// empty file contains what was `expected`.
   static YamlFields parse(const std::string& text, const std::string& file, const std::string& what,
                           const std::string& expected);
 
@@ -42,26 +43,26 @@ class YamlFields {
   const std::string& field() const { return field_; }
   int line() const;
   FilePlace place() const;
-  /// Returns the place of this scalar as a text of several lines.
+  /// Returns the place of this scalar as a multi-line text.
   InlineText inline_text() const;
   /// Returns the folder to which paths in the file are relative.
   std::string folder() const;
   [[noreturn]] void fail(const std::string& what) const;
 
-  /// Returns this node with another rule, which must outlive it and all nodes taken from it. Null: scalars
-  /// are taken as written.
+  /// Returns this node with a different rule. The rule must outlive the node and all nodes that are derived
+  /// from it. Null: scalars are read as written.
   YamlFields with_rule(const ScalarRule* rule) const;
-  /// Returns this map, completed with the entries that only `defaults`, another map of the same file, has. If
-  /// both have a map for a key, the two maps are joined in the same way; otherwise this map's value is kept.
+  /// Returns this map with the missing entries added from `defaults`, another map of the same file. If both
+  /// have a map for a key, the two maps are joined in the same way; otherwise, this map's value is used.
   YamlFields with_defaults(const YamlFields& defaults) const;
   /// Returns this map without some of its keys.
   YamlFields without(std::span<const std::string_view> keys) const;
-  /// Returns a copy whose scalars have been read by the rule, so that it needs no rule. Parts for which
+  /// Returns a copy to whose scalars the rule has been applied, so that it needs no rule. Parts for which
   /// `text_of` returns a text become scalars with that text.
   YamlFields settled(const std::function<std::optional<std::string>(const YamlFields&)>& text_of = {}) const;
-  /// Returns this map with one more scalar at its end.
+  /// Returns this map with a scalar appended.
   YamlFields with_entry(const std::string& key, const std::string& text) const;
-  /// Returns a map whose only value is this node.
+  /// Returns a map that contains only this node.
   YamlFields under(const std::string& key) const;
 
   bool is_map() const;
@@ -82,7 +83,7 @@ class YamlFields {
   std::vector<YamlFields> elements() const;
 
   std::string text() const;
-  /// Returns a path in folder(), ready for opening.
+  /// Returns a path that can be opened; a relative path is relative to folder().
   std::string path() const;
   std::int64_t integer(std::int64_t lowest, std::int64_t highest) const;
   std::int64_t integer(const Schema& schema) const { return integer(schema.lowest, schema.highest); }
@@ -105,11 +106,11 @@ class YamlFields {
   [[noreturn]] void refuse_key(const std::string& key, std::span<const Key> known) const;
   std::string field_of(const std::string& key) const { return is_root_ ? key : field_ + "." + key; }
 
-  // Shared by all nodes of the document.
+  // All nodes of the document share this.
   std::shared_ptr<const std::string> file_;
   std::shared_ptr<const YamlNode> node_;
   std::string field_;
-  bool is_root_ = false;  // the field names of its children are their keys alone
+  bool is_root_ = false;  // the field names of its children consist only of their keys
   const ScalarRule* rule_ = nullptr;
 };
 

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kLongestLine = 110;
 
-/// Returns true if the text needs no quotes, wherever it is.
+/// Returns true if the text needs no quotes in any position.
 bool is_plain(std::string_view text) {
   constexpr std::string_view kInside = "_./+*%=<>()|&^$-@ ";
   if (text.empty() || text.back() == ' ' || text == "null" || text == "Null" || text == "NULL") return false;
@@ -47,7 +47,7 @@ std::string scalar_text(const std::string& text) {
   return quoted + '"';
 }
 
-/// Returns true for a text of several lines that can be written as a block, each line indented.
+/// Returns true if the text has several lines and can be written as an indented block.
 bool is_block(const YamlFields& node) {
   if (!node.is_scalar()) return false;
   const std::string text = node.text();

@@ -83,13 +83,13 @@ class ControllerCoverage::Counting final : private OutsideListener {
   }
 
  private:
-  /// A line's packets, and the last line of text that a host has sent.
+  /// The packets on a line, and the last line of text from a host.
   struct Line {
     std::unique_ptr<pty::CaptureFrames> packets;
     std::vector<std::uint8_t> request{};
   };
 
-  /// Observes the faults that act on messages, and the requests that stations serve.
+  /// Observes the faults that affect messages, and the requests that stations serve.
   class Strikes final : public pty::LineObserver {
    public:
     Strikes(Counting& counting, std::size_t line) : counting_(counting), line_(line) {}
@@ -143,11 +143,11 @@ class ControllerCoverage::Counting final : private OutsideListener {
         packet.remark == pty::Remark::unheard) {
       return;
     }
-    // A frame of Modbus ASCII is served like one of RTU.
+    // A Modbus ASCII frame is handled like an RTU frame.
     if (packet.is_text && !pty::rtu_of_ascii(packet.bytes)) take_text(packet);
   }
 
-  /// A request counts as answered if the device executes it, whatever becomes of the reply.
+  /// A request counts as answered if the device executes it, even if the reply is lost.
   void served(std::size_t line, const pty::ServedRequest& served) {
     const Device* const device = &world_.line(line).stations[served.station]->device();
     const ModbusRequest request = parse_request_frame(served.request);
@@ -162,7 +162,7 @@ class ControllerCoverage::Counting final : private OutsideListener {
     });
   }
 
-  /// A command counts as accepted if the next answer does not refuse it, or if another command follows.
+  /// A command counts as accepted if the next answer is not a refusal, or if another command follows.
   void take_text(const pty::CapturedPacket& packet) {
     Line& line = lines_[packet.line];
     const bool is_of_host = packet.direction == pty::Direction::from_host;
@@ -202,7 +202,7 @@ class ControllerCoverage::Counting final : private OutsideListener {
     devices_[device].command(without_ends(text), false);
   }
   void on_inject(const Fault& fault) override {
-    // A fault that ends at once is not reported again.
+    // A fault that ends immediately is not reported again.
     if (is_done_at_once(fault.kind) && !waits(fault)) begin(fault);
   }
   void on_fault(std::size_t number, bool in_force) override {

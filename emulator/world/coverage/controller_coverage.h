@@ -1,7 +1,6 @@
-// Counts what hosts, programs and faults exercise of the devices: registers, bits, functions, commands,
-// instructions, faults, cells of transition tables,
-// choices. It only observes: nothing in the world depends on it, and a restored snapshot does
-// not restore the counts.
+// Counts which parts of the devices hosts, programs and faults exercise: registers, bits, functions,
+// commands, instructions, faults, cells of transition tables, choices. It only observes: nothing in the world
+// depends on it, and restoring a snapshot does not restore the counts.
 #pragma once
 
 #include <cstddef>
@@ -16,15 +15,15 @@ class World;
 
 class ControllerCoverage {
  public:
-  /// Counts from now on. The world must outlive it.
+  /// Starts counting. The world must outlive this object.
   explicit ControllerCoverage(World& world);
   ~ControllerCoverage();
   ControllerCoverage(const ControllerCoverage&) = delete;
   ControllerCoverage& operator=(const ControllerCoverage&) = delete;
 
-  /// Returns the counts by model. Devices of one model are added up.
+  /// Returns the counts per model. Devices that have the same model are added up.
   TouchedReport report() const;
-  /// Called after the world has been put into another state. Drops incomplete messages on the lines.
+  /// Called after the world was put into another state. Drops incomplete messages on the lines.
   void world_restored();
 
  private:

@@ -63,7 +63,7 @@ CoverageTotals CoverageReport::totals() const {
 
 namespace {
 
-/// lcov shows the outcome of a decision that was never made as "-".
+/// In lcov, "-" stands for the outcomes of a decision that was never made.
 std::string taken_text(const CoveredLine& line, std::int64_t count) {
   return line.yes + line.no == 0 ? "-" : std::to_string(count);
 }
@@ -131,7 +131,7 @@ std::string xml_of(int number, const CoveredLine& line) {
 
 }  // namespace
 
-/// The time is constant, so that equal runs have equal reports.
+/// The time is constant, so that equal runs result in equal reports.
 std::string cobertura_text(const CoverageReport& report) {
   const CoverageTotals all = report.totals();
   std::string text =

@@ -1,4 +1,4 @@
-// Reports how often lines of programs have run, by file, summed over any number of runs.
+// Reports how often each program line has run, by file, added up over any number of runs.
 #pragma once
 
 #include <cstdint>
@@ -10,17 +10,17 @@ namespace understudy::emulator::world {
 struct CoveredLine {
   std::int64_t runs = 0;
   bool decides = false;
-  std::int64_t yes = 0;  // jumps taken, conditions and contacts that held, waits that did not wait
+  std::int64_t yes = 0;  // jumps taken, conditions and contacts that were true, waits that ended at once
   std::int64_t no = 0;
 
   void add(const CoveredLine& other);
   bool operator==(const CoveredLine&) const = default;
 };
 
-/// Lines by their number, from 1. Those without an instruction are missing.
+/// Lines by number, counted from 1. Lines without an instruction are missing.
 using CoveredLines = std::map<int, CoveredLine>;
 
-/// Counts lines, and both outcomes of those that decide.
+/// Counts lines, and for each decision both outcomes.
 struct CoverageTotals {
   std::int64_t lines = 0;
   std::int64_t lines_run = 0;
@@ -36,8 +36,8 @@ struct CoverageTotals {
 
 struct CoveredFile {
   CoveredLines lines;
-  std::string listing = {};  // the program as read back from the device, if no file has it; then the path
-                             // is only a name
+  std::string listing = {};  // if no file contains the program, the program as read from the device; the path
+                             // is then only a name
 
   CoverageTotals totals() const;
   bool operator==(const CoveredFile&) const = default;
@@ -51,7 +51,7 @@ struct CoverageReport {
   bool operator==(const CoverageReport&) const = default;
 };
 
-/// Returns the report as lcov's tracefile, or as Cobertura's XML.
+/// Return the report as an lcov tracefile, or as Cobertura XML.
 std::string lcov_text(const CoverageReport& report);
 std::string cobertura_text(const CoverageReport& report);
 

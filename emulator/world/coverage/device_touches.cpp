@@ -37,7 +37,7 @@ enum BitColumn : std::size_t { kOn, kOff };
 enum Outcome : std::size_t { kAccepted, kNotAccepted };
 enum Motion : std::size_t { kStanding, kMoving };
 
-// Every device can be made to answer these. Others get a row when they occur.
+// Every device can answer with these exceptions. Other exceptions get a row when they occur.
 constexpr int kExceptions[] = {1, 2, 3};
 
 void count(std::int64_t& counter) { counter = std::max<std::int64_t>(counter, 0) + 1; }
@@ -47,8 +47,8 @@ std::string name_of(const RegisterMap& map, const RegisterRow& row) {
   return row.count == 1 ? first : first + " to " + RegisterMap::name_of(row, row.count - 1);
 }
 
-/// Returns true if the bits of the register are counted one by one, because they have names or there is only
-/// one.
+/// Returns true if the bits of the register are counted separately, because they have names or because there
+/// is only one bit.
 bool has_bits(const RegisterRow& row) {
   return row.access != Access::write && (!row.fields.empty() || (row.type == Type::bit && row.count == 1));
 }
@@ -64,7 +64,8 @@ std::string function_name(std::uint8_t code) {
   return std::to_string(code);
 }
 
-/// Returns true if the word matches the pattern: in a pattern such as "TpMA", p is the number of a module.
+/// Returns true if the word matches the pattern. In a pattern such as "TpMA", p stands for the number of a
+/// module.
 bool is_called(std::string_view pattern, std::string_view word) {
   if (pattern.size() > word.size()) return false;
   for (std::size_t i = 0; i < pattern.size(); ++i) {
@@ -74,7 +75,7 @@ bool is_called(std::string_view pattern, std::string_view word) {
   return true;
 }
 
-/// Returns the instructions that a program can have, without the commands of a window.
+/// Returns the instructions that a program can contain, without the commands of a window.
 std::vector<const InstructionRow*> program_rows(const Model& model) {
   std::vector<const InstructionRow*> rows;
   if (model.language == nullptr) return rows;
@@ -152,7 +153,7 @@ void DeviceTouches::add_commands() {
   }
 }
 
-/// Counts each row that the span touches once.
+/// Counts each row that overlaps the span once.
 void DeviceTouches::touch(const RegisterSpan& span, std::size_t column) {
   if (device_.register_bank() == nullptr) return;
   const RegisterBank& bank = *device_.register_bank();
@@ -215,7 +216,7 @@ void DeviceTouches::written(Table table, std::uint16_t first, std::span<const st
   send_command(span, words, false);
 }
 
-/// Counts the command that the words are, if they are one.
+/// If the words are a command, counts it.
 void DeviceTouches::send_command(const RegisterSpan& span, std::span<const std::uint16_t> words,
                                  bool is_refused) {
   if (words.empty()) return;
@@ -223,7 +224,7 @@ void DeviceTouches::send_command(const RegisterSpan& span, std::span<const std::
   if (text) command(*text, is_refused);
 }
 
-/// Returns the longest name that the text begins with: "MA" for "MA 1000".
+/// Returns the longest command name with which the text begins: "MA" for "MA 1000".
 std::string DeviceTouches::command_called(std::string_view text) const {
   const TouchedRow* longest = nullptr;
   for (const TouchedRow& row : commands_.rows) {
@@ -244,7 +245,7 @@ void DeviceTouches::fault(Fault::Kind kind, bool is_moving) {
 
 namespace {
 
-/// Returns the instructions of programs, with the counts of those that have run.
+/// Returns the program instructions with their execution counts.
 TouchedTable instruction_table(const Model& model, const std::map<std::string, CoveredLine>& instructions) {
   TouchedTable table{.name = "instructions", .columns = {"run", "yes", "no"}};
   for (const InstructionRow* const row : program_rows(model)) {
@@ -275,8 +276,8 @@ TouchedTable transition_table(const Device& device, std::size_t number) {
   return table;
 }
 
-/// Counts 1 for each choice that the device has looked up, and 0 for the others. A choice whose option the
-/// device stores has no count, because nobody can observe its use.
+/// Counts 1 for each choice that the device has looked up, and 0 for the others. If the device stores the
+/// option of a choice, the choice has no count, because its use cannot be observed.
 TouchedTable choice_table(const Device& device) {
   TouchedTable table{.name = "choices", .columns = {"asked"}};
   const auto& rows = device.model().choices;

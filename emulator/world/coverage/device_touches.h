@@ -1,4 +1,4 @@
-// Counts what has been exercised of one device, in the rows of its model's tables.
+// Counts what has been exercised on one device, in the rows of its model's tables.
 #pragma once
 
 #include <cstddef>
@@ -23,18 +23,19 @@ class DeviceTouches {
  public:
   explicit DeviceTouches(const Device& device);
 
-  /// A request that the device has executed: `data` are the words or bits of a read, as in the reply.
+  /// Counts a request that the device has executed. `data` contains the words or bits of a read, as in the
+  /// reply.
   void answered(const ModbusRequest& request, std::span<const std::uint8_t> data);
-  /// A request that the device has refused, with the exception that it has answered, if it has answered.
+  /// Counts a request that the device has refused, with the exception in its answer, if it answered.
   void refused(const ModbusRequest& request, std::optional<int> exception);
-  /// A register was written without using the line.
+  /// Counts a write that bypassed the line.
   void written(Table table, std::uint16_t first, std::span<const std::uint16_t> words);
-  /// A command by its text: "MA 1000".
+  /// Counts a command by its text: "MA 1000".
   void command(std::string_view text, bool is_refused);
-  /// A fault has begun.
+  /// Counts a fault that has begun.
   void fault(Fault::Kind kind, bool is_moving);
-  /// Returns the tables, with the counts of instructions by their first word, and with what the device itself
-  /// has noted (device/decisions.h).
+  /// Returns the tables, including the counts of instructions by their first word and the decisions that the
+  /// device has recorded (device/decisions.h).
   TouchedModel tables(const std::map<std::string, CoveredLine>& instructions) const;
 
  private:
@@ -54,7 +55,7 @@ class DeviceTouches {
   TouchedTable exceptions_{.name = "exceptions", .columns = {"answered"}};
   TouchedTable commands_{.name = "commands", .columns = {"accepted", "refused"}};
   TouchedTable faults_{.name = "faults", .columns = {"begun while standing", "begun while moving"}};
-  std::vector<std::size_t> first_bits_;  // by row of the map: the first of its rows in bits_
+  std::vector<std::size_t> first_bits_;  // by row of the map: its first row in bits_
 };
 
 }  // namespace understudy::emulator::world

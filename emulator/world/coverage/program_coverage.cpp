@@ -31,7 +31,7 @@ struct LineCounts {
   std::int64_t no = 0;
 };
 
-/// A program that a device has had.
+/// A program that a device has contained.
 struct CountedProgram {
   std::vector<ProgramPart> parts;
   std::vector<std::vector<LineCounts>> counts;           // [part][line]
@@ -42,8 +42,8 @@ struct CountedProgram {
       counts[i].resize(parts[i].lines.size());
       const auto number = static_cast<std::size_t>(parts[i].number);
       if (by_part_number.size() <= number) by_part_number.resize(number + 1);
-      // If several parts have the same number, the first is the one that runs, because a stored file is a
-      // part too.
+      // If several parts have the same number, the first one is the one that runs, because stored files are
+      // parts, too.
       if (by_part_number[number] == nullptr) by_part_number[number] = &counts[i];
     }
   }
@@ -138,8 +138,8 @@ class ProgramCoverage::DeviceCounts final : public ProgramWatch {
     return device_.model().language->parts(text, device_.settings());
   }
 
-  /// Returns the counts of the running program. A program that is observed but never runs, such as one that a
-  /// host is writing line by line, has none.
+  /// Returns the counts of the running program. A program that is observed but never runs, such as a program
+  /// that a host is writing line by line, has no counts.
   CountedProgram& program() {
     if (program_ != nullptr) return *program_;
     CountedProgram*& known = by_mark_[*mark_];
@@ -148,7 +148,7 @@ class ProgramCoverage::DeviceCounts final : public ProgramWatch {
     return *program_;
   }
 
-  /// Returns the counts of the program that the device has now.
+  /// Returns the counts of the present program of the device.
   CountedProgram& present() {
     const std::string text = device_.user_program()->program_text();
     std::unique_ptr<CountedProgram>& program = programs_[text];
@@ -168,7 +168,7 @@ class ProgramCoverage::DeviceCounts final : public ProgramWatch {
         has_file = true;
       }
     }
-    // Lines that no listing shows, such as those after the end, are not part of the program.
+    // Lines that are in no listing, such as those after the end, are not part of the program.
     const bool is_shown = std::any_of(part.lines.begin(), part.lines.end(),
                                       [](const ProgramLine& line) { return line.text_line > 0; });
     if (has_file || !is_shown) return;
@@ -177,7 +177,7 @@ class ProgramCoverage::DeviceCounts final : public ProgramWatch {
     add_part(file.lines, part, counts);
   }
 
-  /// Returns the same name for the same program, whichever device runs it.
+  /// Returns the same name for the same program, regardless of the device.
   std::string name_of_listing(const std::string& text) const {
     char digits[17];
     std::snprintf(digits, sizeof digits, "%016llx",

@@ -1,5 +1,5 @@
-// Counts which lines of the devices' programs run, and what they decide. It only observes: nothing in the
-// world depends on it, and a restored snapshot does not restore the counts.
+// Counts which lines of the devices' programs run, and how their decisions end. It only observes: nothing in
+// the world depends on it, and restoring a snapshot does not restore the counts.
 #pragma once
 
 #include <cstddef>
@@ -22,15 +22,15 @@ struct ProgramSource {
 
 class ProgramCoverage {
  public:
-  /// Counts from now on. The world must outlive it.
+  /// Starts counting. The world must outlive this object.
   explicit ProgramCoverage(World& world);
   ~ProgramCoverage();
   ProgramCoverage(const ProgramCoverage&) = delete;
   ProgramCoverage& operator=(const ProgramCoverage&) = delete;
 
-  /// Returns the counts of all programs, or of one device's. Each part of a program belongs to the files that
-  /// have the same instructions: those in `sources`, and those of the bench. If there is none, it belongs to
-  /// the listing that is read back from the device.
+  /// Returns the counts of all programs, or of one device's programs. Each part of a program belongs to the
+  /// files with the same instructions, among those in `sources` and those of the bench. If there is no such
+  /// file, it belongs to the listing that is read from the device.
   CoverageReport report(const std::vector<ProgramSource>& sources = {}) const;
   CoverageReport report_of(std::size_t device, const std::vector<ProgramSource>& sources = {}) const;
   /// Returns the counts of a device's instructions, by the first word of their code.
@@ -38,7 +38,7 @@ class ProgramCoverage {
 
  private:
   class DeviceCounts;
-  std::vector<std::unique_ptr<DeviceCounts>> devices_;  // null for one without programs
+  std::vector<std::unique_ptr<DeviceCounts>> devices_;  // null for devices without programs
 };
 
 }  // namespace understudy::emulator::world

@@ -1,4 +1,4 @@
-// Counts what a suite has exercised of controllers, as tables, summed over any number of runs.
+// Tables that count what a test suite has exercised on controllers, added up over any number of runs.
 #pragma once
 
 #include <cstddef>
@@ -10,13 +10,13 @@
 
 namespace understudy::emulator::world {
 
-/// Marks something that cannot happen, such as a write to a register that can only be read.
+/// Marks something impossible, such as a write to a read-only register.
 inline constexpr std::int64_t kCannotBe = -1;
 
 struct TouchedRow {
   std::string name;                  // "STATUS"
   std::vector<std::int64_t> counts;  // by column
-  bool matters_most = false;         // one of the worst gaps if no run has touched it
+  bool matters_most = false;         // a particularly serious gap if no run has touched it
 
   bool operator==(const TouchedRow&) const = default;
 };
@@ -26,19 +26,19 @@ struct TouchedTable {
   std::vector<std::string> columns;  // "read", "written"
   std::vector<TouchedRow> rows{};    // in the order of the manual
 
-  /// Counts how many cells can be touched, and how many of them have been.
+  /// How many cells can be touched, and how many have been.
   struct Share {
     std::int64_t touched = 0;
     std::int64_t all = 0;
   };
   Share share() const;
-  /// Returns the row with that name, and adds it if there is none.
+  /// Returns the row with that name. Adds the row if there is none.
   TouchedRow& row(const std::string& name);
   void add(const TouchedTable& other);
   bool operator==(const TouchedTable&) const = default;
 };
 
-/// The tables of a model, those whose gaps matter most first.
+/// The tables of a model. Those whose gaps are the most serious come first.
 using TouchedModel = std::vector<TouchedTable>;
 
 /// A cell that no run has touched.
@@ -54,15 +54,15 @@ struct TouchedReport {
   std::map<std::string, TouchedModel> models;  // by name
 
   void add(const TouchedReport& other);
-  /// Returns all cells that no run has touched, the worst first.
+  /// Returns all cells that no run has touched, the most serious ones first.
   std::vector<Untouched> untouched() const;
   bool operator==(const TouchedReport&) const = default;
 };
 
-/// Returns "the host has never read STATUS".
+/// Returns text such as "the host has never read STATUS".
 std::string text_of(const Untouched& cell);
 
-/// Returns the report as JSON: models, tables, rows with their counts (null: cannot happen), and `untouched`.
+/// Returns the report as JSON: models, tables, rows with their counts (null: impossible), and `untouched`.
 std::string json_text(const TouchedReport& report);
 
 }  // namespace understudy::emulator::world

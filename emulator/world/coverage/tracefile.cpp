@@ -17,7 +17,7 @@ namespace understudy::emulator::world {
 
 namespace {
 
-constexpr std::int64_t kMaxCount = std::int64_t{1} << 53;  // sums of many files stay whole
+constexpr std::int64_t kMaxCount = std::int64_t{1} << 53;  // the sums of many files stay exact
 
 std::vector<std::string_view> fields_of(std::string_view text) {
   std::vector<std::string_view> fields;
@@ -44,8 +44,8 @@ class TracefileReader {
     if (word == "SF") return begin_record(value);
     if (word == "DA") return take_line(value);
     if (word == "BRDA") return take_branch(value);
-    // The other known lines are a test's name, functions (which programs do not have), and totals of the
-    // counts here.
+    // The other known lines contain the name of a test, functions (which programs do not have), and totals of
+    // the counts.
     for (const std::string_view known : {"TN", "LF", "LH", "BRF", "BRH", "FNF", "FNH"}) {
       if (word == known) return;
     }

@@ -8,8 +8,8 @@
 
 namespace understudy::emulator::world {
 
-/// Reads a tracefile that this program wrote, or one that lcov merged from several. Throws FileError, which
-/// names `file` and the line.
+/// Reads a tracefile that this program or lcov has written. Throws FileError, which contains `file` and the
+/// line.
 CoverageReport read_tracefile(std::string_view text, const std::string& file);
 
 }  // namespace understudy::emulator::world

@@ -10,7 +10,7 @@
 
 namespace understudy::emulator::world {
 
-/// The message is one line that says what cannot be watched, and what was expected.
+/// The message is a line with what cannot be watched and what was expected.
 struct BreakpointError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -21,22 +21,22 @@ struct BreakpointSetup {
     instruction,  // instruction number `line` of the part `program` begins, counted from 0
     condition,    // `condition` becomes true
     write,        // the register `name` is written
-    event,        // an event of the kind `name` happens
+    event,        // an event of kind `name` happens
   } kind = Kind::line;
   std::size_t device = 0;  // for a line or an instruction
   std::string program{};   // for an instruction: "PLC", "MP21"; empty if there is only one
   int line = 0;            // the source line, from 1
   std::string name{};
-  std::string by{};         // for a write: host, control, page or device; empty: anyone
-  std::string condition{};  // for all other kinds: a hit counts only while it is true; may be empty
-  std::uint64_t nth = 1;    // it acts from this hit on
+  std::string by{};         // for a write: host, control, page or device; empty: any author
+  std::string condition{};  // for all other kinds: a hit counts only while this is true; may be empty
+  std::uint64_t nth = 1;    // it takes effect from this hit on
   std::string log{};  // if not empty, the breakpoint prints this and never stops; {expressions} are replaced
 };
 
 struct Breakpoint {
   int number = 0;
   BreakpointSetup setup{};
-  int line = 0;  // the source line where it actually is; 0 if it is not in the current program
+  int line = 0;  // the source line of the instruction; 0 if it is not in the current program
   std::uint64_t hits = 0;
 };
 
@@ -54,16 +54,16 @@ struct DebugStop {
   std::string text{};    // for people
   std::string device{};  // set for an instruction; otherwise empty
   InstructionPlace place{};
-  std::size_t depth = 0;  // the number of callers there
+  std::size_t depth = 0;  // the number of callers at the stop
 };
 
-/// How far a step goes.
+/// Where a step ends.
 enum class StepKind : std::uint8_t {
   instruction,  // until the next instruction
   line,         // until the next instruction on another line
   over,         // until the next instruction outside routines called from here
   out,          // until the next instruction after this routine's end
-  stand,        // until no axis of the device moves
+  stand,        // until no axis of the device is moving
 };
 
 }  // namespace understudy::emulator::world

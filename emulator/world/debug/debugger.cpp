@@ -29,7 +29,7 @@ namespace understudy::emulator::world {
 
 namespace {
 
-/// The words of the event log, and words for what devices and machines report.
+/// The kinds in the event log, and the kinds of what devices and machines report.
 const std::vector<std::string> kEvents{"exception", "dropped", "fault", "power",         "program",
                                        "command",   "input",   "alarm", "program-error", "limit"};
 const std::vector<std::string> kAuthors{"host", "control", "page", "device"};
@@ -117,12 +117,12 @@ std::vector<Breakpoint> Debugger::breakpoints() {
   return all;
 }
 
-/// Throws NameError if a name has a value only in scenarios; so no tick has to check that.
+/// Throws NameError if a name has a value only in scenarios, so that ticks need not check this.
 void Debugger::require_values(const Expression& expression) const {
   for (const std::int32_t handle : names_in(expression)) static_cast<void>(probes_.value(handle));
 }
 
-/// Splits the text of a log at its braces: "at {feeder.Cord_A}".
+/// Splits a log text at its braces: "at {feeder.Cord_A}".
 void Debugger::parse_log(Point& point) const {
   std::string_view rest = point.breakpoint.setup.log;
   while (!rest.empty()) {
@@ -193,7 +193,7 @@ void Debugger::find_write(Point& point) {
   point.value = probes_.value(point.handle);
 }
 
-/// Marks earlier events as seen, because they are not hits.
+/// Marks the events so far as seen, because they do not count as hits.
 void Debugger::begin_events() {
   next_event_ = events_.next_number();
   signs_ = signs_of_machines();
@@ -204,8 +204,8 @@ bool Debugger::needs(std::size_t device) const {
   return std::any_of(points_.begin(), points_.end(), [&](const auto& point) { return point->is_of(device); });
 }
 
-/// Watches only the programs that breakpoints and steps need, and watches ticks only if there are breakpoints
-/// or steps.
+/// Watches programs only if breakpoints or steps need it, and watches ticks only if there are breakpoints or
+/// steps.
 void Debugger::settle() {
   for (std::size_t d = 0; d < world_.device_count(); ++d) {
     if (needs(d) == watches_.contains(d)) continue;
@@ -239,8 +239,8 @@ void Debugger::begin_step(StepKind kind, std::size_t number, const std::string& 
   settle();
 }
 
-/// Finds where a step of a program starts: at the instruction that has stopped, or at the program's current
-/// line.
+/// Determines where a step of a program starts: at the instruction where it stopped, or at the program's
+/// current line.
 void Debugger::begin_at(Step& step, const std::string& program) const {
   const Device& device = world_.device(step.device);
   require_program(device);

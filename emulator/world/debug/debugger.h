@@ -1,9 +1,9 @@
-// Breakpoints, logpoints and steps. A debugger only observes: a run with breakpoints has the same states as
-// one without.
+// Breakpoints, logpoints and steps. A debugger only observes: a run has the same states with and without
+// breakpoints.
 //
-// Events within a tick are evaluated at its end: conditions have the values of that moment, a stop happens
-// there, and the state is complete. If nothing is set, the debugger costs nothing. While it watches
-// instructions, the world runs every tick one by one.
+// Events within a tick are evaluated at its end: conditions have the values of that moment, and the world
+// stops there with a complete state. Without breakpoints and steps, the debugger costs nothing. While it
+// watches instructions, the world runs all ticks one by one.
 #pragma once
 
 #include <cstddef>
@@ -36,7 +36,7 @@ class Debugger final : private TickWatcher {
   Debugger(const Debugger&) = delete;
   Debugger& operator=(const Debugger&) = delete;
 
-  /// If it throws BreakpointError, NameError or ExpressionError, nothing has changed.
+  /// If this throws BreakpointError, NameError or ExpressionError, nothing has changed.
   const Breakpoint& add(const BreakpointSetup& setup);
   /// Returns false if there is no breakpoint with that number.
   bool remove(int number);
@@ -45,21 +45,21 @@ class Debugger final : private TickWatcher {
   /// Finds the lines again first, if a device has another program.
   std::vector<Breakpoint> breakpoints();
 
-  /// Begins a step of the device's program (if `program` is empty: the part that has stopped, or any part).
-  /// Throws BreakpointError.
+  /// Begins a step of the device's program. If `program` is empty, it is the part that has stopped, or any
+  /// part. Throws BreakpointError.
   void begin_step(StepKind kind, std::size_t device, const std::string& program);
   void end_step();
   bool is_stepping() const { return step_ != nullptr; }
   bool is_watching() const { return is_watching_; }
 
-  /// Returns the stop where the world is, or null if it has moved on.
+  /// Returns the stop at which the world is, or null if the world has continued.
   const DebugStop* stop() const;
   /// Returns true once after each stop.
   bool take_stop();
   /// Called after the world has been put into another state.
   void restart();
-  /// Until wake() is called, the debugger observes nothing and stops nothing, because the world is moving to
-  /// another moment.
+  /// Until wake() is called, the debugger neither observes nor stops the world, because the world is moving
+  /// to another moment.
   void sleep() { sleeps_ = true; }
   /// `stop` is the stop at which the world is now.
   void wake(std::optional<DebugStop> stop = {});
@@ -72,7 +72,7 @@ class Debugger final : private TickWatcher {
   void on_tick(Tick tick) override;
   Tick next_poll(Tick done) const override;
 
-  /// States of machines and programs that the log does not record as events.
+  /// States of machines and programs that the event log does not contain.
   struct Sign {
     std::string_view what;  // the kind of the event: "limit"
     std::size_t device = 0;
@@ -112,7 +112,7 @@ class Debugger final : private TickWatcher {
   std::map<std::size_t, std::unique_ptr<DeviceWatch>> watches_;
   std::unique_ptr<Step> step_;
   std::optional<DebugStop> stop_;
-  bool is_fresh_ = false;  // the stop has not been taken
+  bool is_fresh_ = false;  // take_stop() has not returned the stop yet
   bool is_watching_ = false;
   bool sleeps_ = false;
   int last_number_ = 0;

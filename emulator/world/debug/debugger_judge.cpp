@@ -36,7 +36,7 @@ std::string text_of_place(const std::string& device, const InstructionPlace& pla
 
 }  // namespace
 
-/// A condition without a result counts as true, so its author learns why.
+/// A condition without a result counts as true, so that its author learns the reason.
 bool Debugger::holds(Point& point, const Probes& probes) {
   point.no_result.clear();
   if (point.condition.code.empty()) return true;
@@ -64,7 +64,7 @@ std::string Debugger::log_text(const Point& point) const {
   return text;
 }
 
-/// Returns the location of a program of the device: the named one, or the first.
+/// Returns the location of a program of the device: the program with that name, or the first one.
 std::optional<ProgramLocation> Debugger::location_of(std::size_t device, const std::string& program) const {
   for (ProgramLocation& place : world_.device(device).user_program()->program_locations()) {
     if (program.empty() || place.program == program) return std::move(place);
@@ -125,7 +125,8 @@ std::string Debugger::text_of(const Sign& sign) const {
   return text;
 }
 
-/// Adds the signs of machines and programs that are new in this tick. The event log does not have them.
+/// Adds the signs of machines and programs that are new in this tick, because the event log does not contain
+/// them.
 void Debugger::check_signs() {
   for (Sign& sign : signs_) {
     const auto waits_for_it = [&](const auto& point) {
@@ -223,7 +224,8 @@ void Debugger::judge(Point& point) {
   stop_with(std::move(stop));
 }
 
-/// Returns true if the step's program no longer runs. The check is slow, so it runs only every kApart ticks.
+/// Returns true if the step's program no longer runs. This check is slow, so it is done only every kApart
+/// ticks.
 bool Debugger::has_ended(const Step& step) const {
   constexpr Tick kApart = 16;
   if (tick_at(world_.now()) % kApart != 0) return false;
@@ -264,7 +266,7 @@ void Debugger::judge_step() {
   stop_with(std::move(stop));
 }
 
-/// Records a stop. Only the first one of a tick counts.
+/// Records a stop. Only the first stop in a tick counts.
 void Debugger::stop_with(DebugStop stop) {
   stop.time = world_.now();
   events_.note({.what = "stop", .by = {}, .device = stop.device, .text = stop.text});

@@ -1,4 +1,4 @@
-// The data that a debugger keeps for each breakpoint, device and step.
+// The data that a debugger stores for each breakpoint, device and step.
 #pragma once
 
 #include <algorithm>
@@ -21,7 +21,7 @@
 namespace understudy::emulator::world {
 
 struct Debugger::Point {
-  /// A piece of a log text: text, or the value of an expression.
+  /// A piece of a log text: either text or an expression.
   using Piece = std::variant<std::string, Expression>;
 
   Breakpoint breakpoint{};
@@ -30,11 +30,11 @@ struct Debugger::Point {
   std::vector<ProgramLines::Instruction> places{};  // for a line or an instruction
   std::uint64_t ran = 0;                            // how often these instructions began in this tick
   std::optional<ProgramLines::Instruction> ran_last{};
-  std::size_t depth = 0;          // the number of callers there
+  std::size_t depth = 0;          // the number of callers at the hit
   bool was_true = false;          // for a condition
-  std::string written{};          // for a write: the register, as the events call it
+  std::string written{};          // for a write: the name of the register in events
   std::int32_t handle = 0;        // for a write: the register's value
-  std::optional<Number> value{};  // its value at the end of the last tick
+  std::optional<Number> value{};  // the value at the end of the last tick
   std::string who{};              // what happened at the last hit of a write or an event
   std::string no_result{};        // why the condition has no result; empty if it has one
   bool is_of(std::size_t device) const {
@@ -47,18 +47,17 @@ struct Debugger::Point {
 struct Debugger::Step {
   StepKind kind = StepKind::instruction;
   std::size_t device = 0;
-  std::optional<int> part{};  // the part that is stepped in; no value: any part
-  std::string program{};      // that part's name
+  std::optional<int> part{};  // the part that is stepped; no value: any part
+  std::string program{};      // the name of that part
   int line = 0;               // the line where the step began; 0 if it is unknown
-  std::size_t depth = 0;      // the number of callers at the beginning; after the step, at its end
+  std::size_t depth = 0;      // the number of callers when the step begins; afterwards, when it ends
   std::optional<ProgramLines::Instruction> end{};  // the instruction at which the step ends
 
-  /// In a program whose scan runs from its first line in each tick: the instruction where it has stopped. The
-  /// step goes on behind it in the next scan.
+  /// In a program whose scan begins at its first line in each tick: the instruction where the program has
+  /// stopped. The step continues after this instruction in the next scan.
   std::optional<ProgramLines::Instruction> after{};
-  int scanned =
-      -1;  // the last instruction of that program that the step has seen, before it has passed `after`
-  /// Returns true for an instruction before the one where the program has stopped, and for that one itself.
+  int scanned = -1;  // the last instruction that the step has seen, before it passed `after`
+  /// Returns true for the instruction where the program has stopped, and for all instructions before it.
   bool is_passed_over(const ProgramLines::Instruction& instruction) {
     if (!after || instruction.part != after->part) return false;
     const bool is_next_scan = instruction.number <= scanned;
@@ -86,7 +85,7 @@ class Debugger::DeviceWatch final : public ProgramWatch {
     mark_ = mark;
     check_program();
   }
-  /// Finds the lines again if the device has a different program.
+  /// Looks up the lines again if the device has a different program.
   void check_program() {
     if (device().user_program()->program_text() == text_) return;
     has_changed = true;
@@ -122,7 +121,7 @@ class Debugger::DeviceWatch final : public ProgramWatch {
     text_ = device().user_program()->program_text();
     lines.emplace(device());
   }
-  /// Returns how many callers the program that runs this part has.
+  /// Returns the number of callers of the program that is running this part.
   std::size_t depth_at(int part) const {
     const bool is_one_of_many = device().model().language->parts_run_at_once();
     const auto first = is_one_of_many ? lines->place({part, 0}) : std::nullopt;
@@ -132,7 +131,7 @@ class Debugger::DeviceWatch final : public ProgramWatch {
 
   std::optional<ProgramLines> lines{};
   std::optional<ProgramLines::Instruction> last{};
-  bool has_changed = false;  // the device has had another program since the last tick
+  bool has_changed = false;  // the program of the device has changed since the last tick
 
  private:
   Device& device() const { return debugger_.world_.device(number_); }

@@ -21,7 +21,7 @@ namespace understudy::emulator::world {
 
 namespace {
 
-/// If several parts have the same number, the first is the one that runs, because a stored file is a part
+/// If several parts have the same number, the first one is the one that runs, because stored files are parts,
 /// too.
 std::vector<ProgramPart> running_parts(const Device& device, const std::string& text) {
   std::vector<ProgramPart> parts;
@@ -32,7 +32,7 @@ std::vector<ProgramPart> running_parts(const Device& device, const std::string& 
   return parts;
 }
 
-/// Parts may be in a different order in the file than in the listing.
+/// The parts may have a different order in the file than in the listing.
 bool is_same_program(const std::vector<ProgramPart>& a, const std::vector<ProgramPart>& b) {
   const auto is_in_b = [&](const ProgramPart& one) {
     return std::any_of(b.begin(), b.end(), [&](const ProgramPart& other) {

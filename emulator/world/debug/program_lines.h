@@ -1,5 +1,5 @@
-// Finds the instructions of source lines in a device's program, and the source lines of instructions. The
-// source is the bench's program if the device still has it, otherwise the listing that is read back from the
+// Finds the instructions for source lines in a device's program, and the source lines for instructions. The
+// source is the bench's program if the device still contains it, otherwise the listing that is read from the
 // device.
 #pragma once
 
@@ -27,20 +27,20 @@ class ProgramLines {
 
   /// Returns the path of the bench's file, or an empty text if the source is the listing.
   const std::string& source() const { return source_; }
-  /// Returns the text that the lines belong to: the bench's program, or the listing.
+  /// Returns the text to which the lines belong: the bench's program or the listing.
   const std::string& text() const { return text_; }
-  /// Returns the lines that have an instruction, in order.
+  /// Returns the lines that contain an instruction, in order.
   std::vector<int> lines() const;
-  /// Returns the first line from `line` on that has an instruction, or 0.
+  /// Returns the first line, from `line` on, that contains an instruction, or 0.
   int line_from(int line) const;
-  /// Returns the last line that has an instruction, or 0.
+  /// Returns the last line that contains an instruction, or 0.
   int last_line() const;
   /// Returns the first instruction of each part on that line.
   std::vector<Instruction> at(int line) const;
   /// Returns the part with that name, or null. An empty name means the only part.
   const ProgramPart* find_part(const std::string& name) const;
   std::vector<std::string> part_names() const;
-  /// Returns the parts, with their instructions in order.
+  /// Returns the parts. Their instructions are in order.
   const std::vector<ProgramPart>& parts() const { return parts_; }
   std::optional<InstructionPlace> place(Instruction instruction) const;
   /// Returns the source line for a line of the listing, or 0 if there is none.
@@ -51,9 +51,9 @@ class ProgramLines {
 
   std::string source_;
   std::string text_;
-  std::vector<std::string> texts_;    // the source by line, without surrounding blanks
-  std::vector<ProgramPart> parts_;    // the source's parts; only the first of those with the same number
-  std::vector<ProgramPart> listing_;  // the listing's parts, in the same way
+  std::vector<std::string> texts_;    // the lines of the source, without surrounding blanks
+  std::vector<ProgramPart> parts_;    // the parts of the source; of parts with the same number, the first
+  std::vector<ProgramPart> listing_;  // the parts of the listing, in the same way
 };
 
 }  // namespace understudy::emulator::world

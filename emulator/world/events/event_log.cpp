@@ -213,7 +213,7 @@ void EventLog::add(Event event) {
   events_.push_back(std::move(event));
 }
 
-/// Adds a noted event, or the writes of a host's request.
+/// Adds a recorded event, or the writes in a host's request.
 void EventLog::take_noted(Noted& noted) {
   if (noted.request.empty()) return add(std::move(noted.event));
   const WorldLine& line = world_.line(noted.line);
@@ -248,7 +248,7 @@ void EventLog::take_frame(const FrameLog::Decoded& frame) {
        .text = (request ? request->text + ": " : "") + frame.text});
 }
 
-/// Adds the events of frames and the others in the order in which they happened.
+/// Adds the events from frames and the other events in the order in which they happened.
 bool EventLog::collect(std::size_t frames) {
   const std::uint64_t end = frames_.next_number();
   const auto add_noted_before = [&](std::uint64_t frame) {

@@ -1,10 +1,10 @@
-// Lists the events of a bench for observers: writes to registers and their authors, inputs, power, programs,
+// The events of a bench, for observers: writes to registers and their authors, inputs, power, programs,
 // faults, refused requests, dropped frames. Events are numbered from 1, and only the most recent ones are
 // kept.
 //
-// Outside events are noted when they happen, and so are requests of hosts that write, when a device executes
-// them: only the device knows that it has, and which number it had then. Other events on the lines are made
-// from the frame log on demand, so they cost nothing while nobody reads them.
+// Outside events are recorded when they happen. Write requests from hosts are recorded when a device executes
+// them, because only then can it be determined that it did, and which station number it had. All other events
+// on the lines are created from the frame log on demand, so they cost nothing while nobody reads them.
 #pragma once
 
 #include <cstddef>
@@ -28,12 +28,12 @@ struct Event {
   /// one of write, input, power, program, command, inject, clear, fault, exception, dropped, restored, speed,
   /// stop, logpoint
   std::string_view what;
-  std::string by;      // host, control or page; empty if none of them caused it
-  std::string line{};  // the line of the host that caused it
+  std::string by;      // host, control or page; empty if the event has none of these causes
+  std::string line{};  // the line of the host that caused the event
   std::string device{};
   std::string name{};   // the register or terminal, in the form that the control socket accepts
   std::string value{};  // a number as text
-  std::string text{};   // further details, for people
+  std::string text{};   // more details, for people
 };
 
 class EventLog final : private OutsideListener {
@@ -51,35 +51,35 @@ class EventLog final : private OutsideListener {
   const std::string& author() const { return author_; }
   /// Adds an event that the world does not report.
   void note(std::string_view what, std::string text);
-  /// Like the above, with all its fields. The time is set to now.
+  /// The same for a whole event. The time is set to the present time.
   void note(Event event);
-  /// Adds an event that records that the world has been put into another state.
+  /// Adds an event which records that the world was put into another state.
   void restored();
-  /// Restarts the log after the world has been put into another state: these events, the oldest first, get
-  /// new numbers and replace all earlier ones, including those from frames.
+  /// Restarts the log after the world was put into another state. These events (the oldest first) get new
+  /// numbers and replace all earlier events, including those from frames.
   void restored_after(std::vector<Event> events);
 
-  /// Makes events of the frames since the last call, at most `frames` of them. Returns true if some are
-  /// left. The functions below process all of them.
+  /// Creates events from at most `frames` frames that have arrived since the last call. Returns true if some
+  /// frames remain. The functions below process all frames.
   bool collect(std::size_t frames);
-  /// Returns at most `max` of the kept events, from that number on.
+  /// Returns at most `max` of the kept events, beginning with number `number`.
   std::vector<Event> since(std::uint64_t number, std::size_t max);
   /// Returns the number of the next event.
   std::uint64_t next_number();
 
  private:
-  /// An event, with the number that the next frame had when it was noted. Events and frames are listed in
-  /// that order.
+  /// An event, with the number of the next frame at the time when it was recorded. Events and frames are
+  /// listed in this order.
   struct Noted {
     std::uint64_t next_frame = 0;
     Event event{};
-    std::vector<std::uint8_t> request{};  // the frame of a host that has written registers: further events
-    std::size_t station = 0;              // the station on `line` that has executed it
+    std::vector<std::uint8_t> request{};  // a host's frame that wrote registers, which are further events
+    std::size_t station = 0;              // the station on `line` that has executed the frame
     std::size_t line = 0;
-    std::optional<std::uint16_t> masked{};  // the value that a mask has made
+    std::optional<std::uint16_t> masked{};  // the value that results from a mask
   };
 
-  /// Notes the requests that the stations of a line execute.
+  /// Records the requests that the stations of a line execute.
   class Served;
   void note(Noted noted);
 

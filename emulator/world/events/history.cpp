@@ -33,7 +33,7 @@ void History::collect(const World& world, const FrameLog& frames, EventLog& even
   }
   for (Event& event : events.since(next_event_, SIZE_MAX)) {
     next_event_ = event.number + 1;
-    // This event only puts the world into the state in which the run begins.
+    // This event only marks the state in which the run begins.
     if (event.what == "restored") continue;
     if (events_.size() == kMaxEvents) {
       events_.pop_front();
@@ -51,7 +51,7 @@ Exchange* History::request_of(const FrameLog::Decoded& frame) {
   if (frame.request) {
     const auto asked = requests_.find(*frame.request);
     Exchange* const exchange = asked == requests_.end() ? nullptr : kept(asked->second);
-    // The second copy of a reply is listed on its own.
+    // The second copy of a reply is listed separately.
     return exchange != nullptr && exchange->reply.empty() ? exchange : nullptr;
   }
   if (!frame.bytes.empty()) return nullptr;

@@ -1,5 +1,5 @@
-// Keeps everything that happened in a run: each request with its reply, and each event. Recordings need it,
-// because the logs of a daemon keep only the last entries.
+// Keeps everything that happened in a run: each request with its reply, and each event. Recordings need this,
+// because the logs of a daemon keep only the most recent entries.
 #pragma once
 
 #include <cstddef>
@@ -16,12 +16,12 @@
 
 namespace understudy::emulator::world {
 
-/// A request with its reply, or a frame that belongs to no other.
+/// A request with its reply, or a frame that does not belong to any other frame.
 struct Exchange {
   std::string line;
   SimTime begin{0};
   SimTime end{0};         // the end of its last frame
-  std::string request{};  // empty if a station has sent without being asked
+  std::string request{};  // empty if a station sent something without a request
   std::string reply{};    // empty if there was no reply
   std::string remark{};   // why a frame was dropped, or another remark
   std::optional<SimTime> latency{};
@@ -30,11 +30,11 @@ struct Exchange {
 
 class History {
  public:
-  /// Beyond these limits the oldest are dropped.
+  /// Beyond these limits, the oldest entries are dropped.
   static constexpr std::size_t kMaxExchanges = 200'000;
   static constexpr std::size_t kMaxEvents = 100'000;
 
-  /// Adds the new entries of the logs. Call it before the logs drop any.
+  /// Adds the new entries of the logs. Call this before the logs drop entries.
   void collect(const World& world, const FrameLog& frames, EventLog& events);
 
   const std::deque<Exchange>& exchanges() const { return exchanges_; }

@@ -21,14 +21,14 @@ namespace understudy::emulator::world {
 
 namespace {
 
-constexpr std::size_t kMaxTouching = 16;  // events that touch the names
+constexpr std::size_t kMaxTouching = 16;  // events that affect the names
 constexpr std::size_t kMaxEvents = 24;    // in total, including events of the same devices
 
 bool is_of_name(char letter) {
   return std::isalnum(static_cast<unsigned char>(letter)) != 0 || letter == '_' || letter == '.';
 }
 
-/// Returns the words of a text that are names of the bench, each once, in order.
+/// Returns the words in a text that are names in the bench, each name once, in order.
 std::vector<std::string> names_in_text(const World& world, std::string_view text) {
   const ProbeNames known(world);
   std::vector<std::string> names;
@@ -114,7 +114,7 @@ Story story_of(const World& world, const RecordedFailure& failure, const std::de
   const Event* before = nullptr;
   for (const std::size_t i : taken) {
     const Event& event = events[i];
-    // The registers of one request make one moment.
+    // The registers in one request result in one moment.
     const bool is_more = before != nullptr && event.what == "write" && before->what == "write" &&
                          before->time == event.time && before->by == event.by;
     if (is_more) {

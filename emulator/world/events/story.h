@@ -1,4 +1,4 @@
-// Describes how a scenario failed: one sentence, and the events that led there.
+// Describes how a scenario failed: a sentence, and the events that led to the failure.
 #pragma once
 
 #include <deque>
@@ -20,12 +20,12 @@ struct Story {
   };
   SimTime at{0};
   std::string sentence;            // "failed at 6.091s: feeder.A.lost is 5; expected 0 (fail.yaml:8: ...)"
-  std::vector<std::string> names;  // the names that the sentence mentions: "feeder.A.lost"
+  std::vector<std::string> names;  // the names in the sentence: "feeder.A.lost"
   std::vector<Moment> moments;     // the oldest first
 };
 
-/// Returns the story of a failure. The moments are the last events that touch its names, and then the last
-/// ones of the same devices, all of them before the failure.
+/// Returns the story of a failure. The moments are the last events that affect the names in the failure, and
+/// the last events of the same devices. All of them precede the failure.
 Story story_of(const World& world, const RecordedFailure& failure, const std::deque<Event>& events);
 
 /// Returns the moments as lines: "1.030091302s  host writes feeder.Aaxis_Pulse = 32000".

@@ -13,7 +13,7 @@ namespace understudy::emulator::world {
 
 namespace {
 
-// Returns by how many values an instruction makes the stack grow.
+// Returns by how many values an instruction changes the size of the stack.
 int growth(Instruction::Kind kind) {
   switch (kind) {
     case Instruction::Kind::constant:

@@ -1,8 +1,8 @@
 // Conditions of scenarios, fault triggers and `ctl run-until` (docs/expressions.md):
 //   feeder.STATUS.4 == 0 && time >= 250ms
 //
-// A text is parsed once; all names are looked up and all units checked then. The result is a value that can
-// be evaluated often without allocating memory, and that refers to the world only by small handles.
+// A text is parsed once, and all names and units are checked at that time. The result is a value that can be
+// evaluated often without allocating memory, and that refers to the world only through small handles.
 #pragma once
 
 #include <cstdint>
@@ -15,8 +15,8 @@
 
 namespace understudy::emulator::world {
 
-/// The meaning of a name: a handle that the resolver chooses and the value source understands, and a unit. A
-/// register is a plain number, even if its manual gives a unit.
+/// What a name refers to: a handle that the resolver assigns and the value source understands, and a unit. A
+/// register is a plain number, even if its manual specifies a unit.
 struct NamedNumber {
   std::int32_t handle = 0;
   Unit unit = Unit::none;
@@ -25,9 +25,10 @@ struct NamedNumber {
 class NameResolver {
  public:
   virtual ~NameResolver() = default;
-  /// Resolves a name: "time", "feeder.STATUS.4", "feeder.A.pulses". Parts are joined by dots, without quotes
-  /// or brackets: feeder["Logic Position X"] is "feeder.Logic Position X". For an unknown name it throws a
-  /// std::runtime_error (such as NameError) of one line with the nearest known name.
+  /// Resolves a name: "time", "feeder.STATUS.4", "feeder.A.pulses". The parts of a name are joined by dots,
+  /// without quotes or brackets: feeder["Logic Position X"] becomes "feeder.Logic Position X". For an unknown
+  /// name, throws a std::runtime_error (such as NameError) with a one-line message that contains the nearest
+  /// known name.
   virtual NamedNumber resolve(std::string_view name) const = 0;
 };
 
@@ -38,15 +39,15 @@ class ValueSource {
   virtual Number value(std::int32_t handle) const = 0;
 };
 
-/// One step of a stack machine.
+/// An instruction of a stack machine.
 struct Instruction {
   enum class Kind : std::uint8_t {
     constant,  // pushes constants[argument]
     name,      // pushes the value of names[argument]
-    unary,     // replaces the top value by the result of `operation`
-    binary,    // replaces the top two values by the result of `operation`
-    within,  // replaces value, centre and tolerance by 1 if the value is within the tolerance, otherwise by 0
-    within_share,   // replaces value and centre by the result; the tolerance is `constants[argument]`
+    unary,     // replaces the top value with the result of `operation`
+    binary,    // replaces the top two values with the result of `operation`
+    within,  // replaces value, centre and tolerance with 1 if the value is within the tolerance, else with 0
+    within_share,   // replaces value and centre with the result; the tolerance is `constants[argument]`
                     // millionths of a percent of the centre
     skip_if_false,  // `and`: if the top is false, it becomes 0 and the next `argument` instructions are
                     // skipped; otherwise it is dropped
@@ -57,11 +58,11 @@ struct Instruction {
     skip,          // skips the next `argument` instructions
   } kind = Kind::constant;
   Operator operation = Operator::add;
-  std::uint16_t offset = 0;  // in the text, for messages
+  std::uint16_t offset = 0;  // position in the text, for messages
   std::int32_t argument = 0;
 };
 
-/// Made by parse_expression(). A default-constructed expression evaluates to 0.
+/// Created by parse_expression(). A default-constructed expression evaluates to 0.
 struct Expression {
   struct Name {
     NamedNumber number;
@@ -70,15 +71,15 @@ struct Expression {
   std::string text;
   std::vector<Instruction> code;
   std::vector<Number> constants;
-  std::vector<Name> names;  // each name once, in the order of the text
-  int stack_depth = 1;      // how many values the code holds at a time
+  std::vector<Name> names;  // all names in the order of the text, without duplicates
+  int stack_depth = 1;      // the maximum number of values on the stack
 };
 
 /// Throws ExpressionError.
 Expression parse_expression(std::string_view text, const NameResolver& names);
 
-/// Throws ExpressionError if there is no result (division by zero, overflow, a bit of a real number). Its
-/// message shows the values that led to it.
+/// Throws ExpressionError if there is no result (division by zero, overflow, a bit of a real number). The
+/// message contains the values that were involved.
 Number evaluate(const Expression& expression, const ValueSource& source);
 inline bool is_true(const Expression& expression, const ValueSource& source) {
   return evaluate(expression, source).is_true();
@@ -86,10 +87,11 @@ inline bool is_true(const Expression& expression, const ValueSource& source) {
 
 /// Returns the expression as it was written, on one line.
 std::string to_text(const Expression& expression);
-/// Returns the text with the current value of each name: "feeder.STATUS.4 == 0  (feeder.STATUS.4 is 1)".
+/// Returns the text, followed by the current value of each name: "feeder.STATUS.4 == 0  (feeder.STATUS.4 is
+/// 1)".
 std::string explain(const Expression& expression, const ValueSource& source);
 
-/// Returns the handles of all names in the expression, which can change only when one of them does.
+/// Returns the handles of all names in the expression. The value can change only when one of them changes.
 std::vector<std::int32_t> names_in(const Expression& expression);
 
 }  // namespace understudy::emulator::world

@@ -192,7 +192,7 @@ Number apply(Operator operation, Number a) {
 Bounds bounds_around(Number centre, Number tolerance) {
   if (tolerance < 0) throw ArithmeticError("a tolerance below zero (" + number_text(tolerance) + ")");
   if (centre.is_whole() && tolerance.is_whole()) {
-    // No whole number reaches a limit that does not fit into 64 bits.
+    // A limit that does not fit in 64 bits is never reached by a whole number.
     std::int64_t low = 0;
     std::int64_t high = 0;
     const bool no_low = __builtin_sub_overflow(centre.whole(), tolerance.whole(), &low);

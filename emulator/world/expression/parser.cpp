@@ -23,7 +23,7 @@ namespace {
 
 constexpr int kDeepestNesting = 64;
 
-// A sign that people write by mistake, and the message for it.
+// A sign that people write by mistake, and the corresponding message.
 struct Hint {
   std::string_view sign;
   std::string_view text;
@@ -39,12 +39,12 @@ constexpr std::array<Hint, 4> kHints = {{
 struct ExpressionFunctionRow {
   std::string_view name;
   Operator operation;
-  bool folds;  // takes two arguments or more, pair by pair
+  bool folds;  // accepts two or more arguments, and combines them pair by pair
 };
 constexpr std::array<ExpressionFunctionRow, 3> kExpressionFunctions = {
     {{"abs", Operator::absolute, false}, {"max", Operator::maximum, true}, {"min", Operator::minimum, true}}};
 
-/// Returns our word for a word that another language uses for on or off, or an empty text for any other word.
+/// Returns our word for a word that other languages use for on or off, or an empty text for any other word.
 std::string_view switch_word(std::string_view word) {
   constexpr std::array<std::pair<std::string_view, std::string_view>, 6> kWords = {
       {{"yes", "on"}, {"Yes", "on"}, {"YES", "on"}, {"no", "off"}, {"No", "off"}, {"NO", "off"}}};
@@ -54,7 +54,7 @@ std::string_view switch_word(std::string_view word) {
   return {};
 }
 
-// Returns the level that binds one step tighter.
+// Returns the next higher precedence level.
 Level above(Level level) { return static_cast<Level>(static_cast<int>(level) + 1); }
 
 }  // namespace
@@ -184,13 +184,14 @@ Term ExpressionParser::comparison(const BinaryRow& row, std::size_t offset, cons
 }
 
 bool ExpressionParser::percentage(std::int64_t& millionths) {
-  // A percent sign follows its number without a blank; a remainder operator does not.
+  // There is no blank between a number and a percent sign, unlike before a remainder operator.
   const bool is_percentage = token_.kind == Token::Kind::number && text_.substr(token_.end).starts_with('%');
   if (!is_percentage) return false;
   if (token_.unit != Unit::none) fail(offset(), "'%' after " + kind_of(token_.unit) + "; expected a number");
   constexpr std::int64_t kMax = 1'000'000;
   if (token_.number > kMax) fail(offset(), "expected a tolerance of at most a million percent");
-  // Rounding removes the error of the real number, because six decimal places times a million are whole.
+  // Rounding removes the error of the real number, because six decimal places times a million are a whole
+  // number.
   millionths = std::llround(token_.number.real() * static_cast<double>(kPercent));
   token_ = lexer_.next();
   expect("%");

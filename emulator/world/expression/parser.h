@@ -1,6 +1,6 @@
-// Parses text into an Expression in one pass: each rule of the grammar is a function that writes the code
-// for its text. Precedence is C's. Parentheses are required where C's precedence surprises people (`a & 4 ==
-// 4`, `a < b < c`, `not a == b`).
+// Parses text into an Expression in one pass: each rule of the grammar is a function that writes the code for
+// its text. The precedence is that of C. Parentheses are required where the precedence of C is surprising (`a
+// & 4 == 4`, `a < b < c`, `not a == b`).
 #pragma once
 
 #include <string>
@@ -13,17 +13,17 @@
 
 namespace understudy::emulator::world {
 
-/// All members throw ExpressionError. `text` and `names` must outlive the parser.
+/// All member functions throw ExpressionError. `text` and `names` must outlive the parser.
 class ExpressionParser {
  public:
   ExpressionParser(std::string_view text, const NameResolver& names);
 
   /// Reads up to the end of the expression.
   Term expression();
-  /// Skips `sign` and returns true if it is next.
+  /// If `sign` is next, skips it and returns true.
   bool skip(std::string_view sign);
-  /// Reads "1%" or "0.5%" as millionths of a percent and returns true; reads nothing if something else is
-  /// next.
+  /// Reads "1%" or "0.5%" as millionths of a percent and returns true. If something else is next, reads
+  /// nothing.
   bool percentage(std::int64_t& millionths);
   bool at_end() const { return token_.kind == Token::Kind::end; }
   void expect_end() const;
@@ -53,7 +53,7 @@ class ExpressionParser {
   Lexer lexer_;
   Token token_;  // the next token
   CodeWriter code_;
-  int nesting_ = 0;  // the depth of parentheses, signs and choices
+  int nesting_ = 0;  // the depth of nested parentheses, signs and choices
 };
 
 }  // namespace understudy::emulator::world

@@ -1,4 +1,4 @@
-// Properties of a part of an expression before it is evaluated, and the rules for combining parts.
+// The properties of a part of an expression before it is evaluated, and the rules for combining parts.
 #pragma once
 
 #include <string>
@@ -15,12 +15,12 @@ struct Term {
     negation
   } shape = Shape::other;  // without parentheses
   Unit unit = Unit::none;
-  bool is_zero = false;  // a literal 0, which fits any unit
-  bool is_real = false;  // certainly real; the value of a name may be real too
+  bool is_zero = false;  // a literal 0, which is compatible with all units
+  bool is_real = false;  // certainly real; the value of a name may also be real
 };
 
-/// The precedence levels of C, except that all comparisons share one level and do not chain. A higher level
-/// binds tighter.
+/// The precedence levels of C, except that all comparisons have the same level and cannot be chained. A
+/// higher level binds tighter.
 enum class Level : std::uint8_t {
   either,
   both,
@@ -39,7 +39,7 @@ struct BinaryRow {
   Level level;
   Operator operation;
 };
-/// Returns null if `sign` is not an operator of that level.
+/// Returns null if `sign` is not an operator of this level.
 const BinaryRow* find_binary(std::string_view sign, Level level);
 
 /// Thrown if two terms cannot be combined. The message gives the reason.
@@ -47,9 +47,9 @@ struct MisfitError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// All of these throw MisfitError. `sign` is the operator between the two terms.
+/// All of these functions throw MisfitError. `sign` is the operator between the two terms.
 void check_units(const Term& left, const Term& right, std::string_view sign);
-/// Returns `left sign right`, for every level except the two logical ones and unary.
+/// Returns `left sign right`, for all levels except the two logical levels and `unary`.
 Term combined(const BinaryRow& row, const Term& left, const Term& right);
 /// Returns the term for a choice between two terms, as in `a ? b : c` or min(b, c).
 Term either_of(const Term& left, const Term& right, std::string_view sign);

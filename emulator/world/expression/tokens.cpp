@@ -21,9 +21,9 @@ namespace understudy::emulator::world {
 
 namespace {
 
-constexpr std::size_t kLongestText = 2'000;  // bytes: some twenty lines of conditions
+constexpr std::size_t kLongestText = 2'000;  // bytes: about twenty lines of conditions
 
-// If several signs begin with the same characters, the longest comes first. Some are not valid in
+// If several signs begin with the same characters, the longest sign comes first. Some signs are not valid in
 // expressions; they are recognized only for the message.
 constexpr std::array<std::string_view, 33> kSigns = {
     "&&", "||", "==", "!=", "<=", ">=", "<<", ">>", "<>", "+-", "..", "+", "-", "*", "/", "%", "<",
@@ -33,7 +33,7 @@ constexpr std::array<std::string_view, 6> kTimeUnits = {"ns", "us", "ms", "s", "
 
 struct Word {
   std::string_view spelling;
-  std::string_view sign;  // the sign that it is an alias of; empty for a number
+  std::string_view sign;  // the sign for which the word is an alias; empty for a number
   int number = 0;
 };
 constexpr std::array<Word, 7> kWords = {{{"and", "&&"},
@@ -61,7 +61,7 @@ std::size_t column_of(std::string_view text, std::size_t offset) {
                  std::count_if(before.begin(), before.end(), [](char c) { return !continues_character(c); }));
 }
 
-// Returns the part of a long text around the error.
+// Returns the part of a long text that is around the error.
 std::string_view around(std::string_view text, std::size_t offset) {
   constexpr std::size_t kShort = 70;
   constexpr std::size_t kBefore = 40;
@@ -76,7 +76,8 @@ std::string quoted_around(std::string_view text, std::size_t offset) {
   return quoted((part.size() < text.size() ? "..." : "") + on_one_line(part));
 }
 
-// Returns 2500 for "2.5" volts, or nothing for fractions of a millivolt or voltages that are out of range.
+// Returns 2500 for "2.5" volts, or nothing for fractions of a millivolt and for voltages that are out of
+// range.
 std::optional<std::int64_t> millivolts(std::string_view digits, std::string_view unit) {
   const std::int64_t highest = unit == "V" ? 1'000'000 : 1'000'000'000;
   const std::size_t point = digits.find('.');
@@ -137,8 +138,8 @@ Token Lexer::next() {
   return token;
 }
 
-// Reads a unit after a number, with or without a space in between. A word there can only be a unit, because
-// two values are never adjacent.
+// Reads a unit after a number, with or without a space in between. A word after a number can only be a unit,
+// because two values are never adjacent.
 std::string_view Lexer::unit_here() {
   std::size_t begin = next_;
   while (at(begin) == ' ') ++begin;
@@ -150,7 +151,7 @@ std::string_view Lexer::unit_here() {
   return word;
 }
 
-// Reads the characters of a number and drops '_'.
+// Reads the characters of a number, and drops '_'.
 std::string Lexer::digits_and_point(Token& token) {
   const std::size_t begin = next_;
   const auto skip_digits = [this] {
@@ -220,7 +221,8 @@ Token Lexer::number() {
   } else {
     double value = 0;
     const auto error = std::from_chars(plain.data(), plain.data() + plain.size(), value).ec;
-    // A number too small to distinguish from 0 is refused too, because its author did not mean 0.
+    // A number that is too small to be distinguished from 0 is also refused, because its author did not mean
+    // 0.
     if (error != std::errc{}) fail(begin, written + " is too large for a real number");
     token.number = value;
   }

@@ -9,21 +9,21 @@
 
 namespace understudy::emulator::world {
 
-/// Returns an expression as written, but on one line.
+/// Returns an expression as it was written, but on one line.
 std::string on_one_line(std::string_view text);
 
 /// The message is one line: "column 17 of 'feeder.STATUS ==': unexpected end; expected a name, a number or
 /// '('".
 struct ExpressionError : std::runtime_error {
   ExpressionError(std::string_view text, std::size_t offset, const std::string& what_is_wrong);
-  std::size_t column = 0;  // in characters, from 1
+  std::size_t column = 0;  // in characters, counted from 1
 };
 
 struct Token {
   enum class Kind : std::uint8_t { end, number, name, sign } kind = Kind::end;
   std::size_t begin = 0;  // in the text, in bytes
   std::size_t end = 0;
-  std::string_view sign = {};  // "&&" for `and` too
+  std::string_view sign = {};  // also "&&" for `and`
   enum class Notation : std::uint8_t { whole, based, decimal, exponent } notation = Notation::whole;
   Number number = {};
   Unit unit = Unit::none;
@@ -34,7 +34,7 @@ class Lexer {
  public:
   /// The text must outlive the lexer. Throws ExpressionError if it is too long.
   explicit Lexer(std::string_view text);
-  /// Returns the next token; at the end returns one of kind `end` every time. Throws ExpressionError.
+  /// Returns the next token. At the end, it returns a token of kind `end` every time. Throws ExpressionError.
   Token next();
 
  private:

@@ -38,7 +38,7 @@ const FaultKindRow& row_of(const std::string& name) {
   throw NameError(quoted(name) + " is not a fault" + suggestion(name, names));
 }
 
-/// Returns the first device on a line and its port on it, or nothing if there is no such line.
+/// Returns the first device on a line and the port that connects it, or nothing if there is no such line.
 std::optional<std::pair<std::size_t, std::size_t>> find_line(const KnownDevices& devices,
                                                              const std::string& name) {
   for (std::size_t d = 0; d < devices.size() && !name.empty(); ++d) {
@@ -78,7 +78,7 @@ void set_line(const KnownDevices& devices, const std::string& place, Fault& faul
   fault.on_line = true;
 }
 
-/// Returns nothing if no counted input has that name.
+/// Returns nothing if there is no counted input with that name.
 std::optional<InputName> find_counted(const KnownDevices& devices, const std::string& name) {
   try {
     const InputName input = find_input(devices, name);
@@ -152,7 +152,7 @@ std::string expected_of(const FaultFieldRow& row) {
   }
 }
 
-/// Returns the text of a field, or an empty text if the value is the default.
+/// Returns the text of a field, or an empty text if it has its default value.
 std::string text_of(const FaultFieldRow& row, const Fault& fault) {
   switch (row.type) {
     case ValueType::number:
@@ -171,7 +171,7 @@ std::string text_of(const FaultFieldRow& row, const Fault& fault) {
   return {};
 }
 
-/// Sets the addresses of the words of a register. `name` is the register's name.
+/// Sets the addresses of a register's words. `name` is the name of the register.
 void set_address(const KnownDevices& devices, const std::string& name, Fault& fault) {
   const RegisterName found =
       fault.on_line ? find_register(devices, name) : find_register({devices[fault.device]}, name);
@@ -238,7 +238,7 @@ void set_all_fields(const KnownDevices& devices, const FaultKindRow& row, const 
       throw NameError("for: this fault has no duration; expected no `for`");
     }
   } catch (const NameError& error) {
-    // A message "field: what is wrong" becomes a FaultFieldError if the field was given.
+    // If the message is "field: what is wrong" and the field was specified, it becomes a FaultFieldError.
     const std::string what = error.what();
     const std::size_t colon = what.find(": ");
     const auto is_it = [&](const auto& field) { return one_line(field.first) == what.substr(0, colon); };

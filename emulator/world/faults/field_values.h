@@ -20,7 +20,7 @@ std::pair<std::int64_t, std::int64_t> field_span(std::string_view name, const st
                                                  std::int64_t lowest, std::int64_t highest);
 /// Parses "on", "off", 0 or 1.
 std::int64_t field_level(std::string_view name, const std::string& text);
-/// Parses a duration from `shortest` to a year.
+/// Parses a duration between `shortest` and a year.
 SimTime field_duration(std::string_view name, const std::string& text, SimTime shortest);
 /// Parses one to 256 bytes: "FF 00" or "ff00".
 std::vector<std::uint8_t> field_bytes(std::string_view name, const std::string& text);

@@ -17,8 +17,8 @@ using ValueType = FaultFieldRow::ValueType;
 using Kind = Fault::Kind;
 using Where = FaultKindRow::Place;
 
-constexpr std::int64_t kFar = 1'000'000'000'000;  // pulses; beyond the range of any counter
-// In pulses; even the sum of many in one tick does not overflow.
+constexpr std::int64_t kFar = 1'000'000'000'000;  // pulses; outside the range of any counter
+// In pulses. Even the sum of several slips in a tick does not overflow.
 constexpr std::int64_t kFarthestSlip = 1'000'000'000;
 constexpr std::int64_t kMaxCounts = 1'000'000;
 constexpr std::int64_t kLongestMessage = 256;

@@ -1,4 +1,4 @@
-// The kinds of faults and their fields in text.
+// The kinds of faults, and their fields in text form.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace understudy::emulator::world {
 
-/// A field that a kind has besides its trigger, and the member that it sets.
+/// A field of a kind, in addition to those of the trigger, and the member that it sets.
 struct FaultFieldRow {
   enum class ValueType : std::uint8_t { number, level, duration, ticks, even_ticks, bytes, side };
   std::string_view name;
@@ -36,8 +36,8 @@ struct FaultKindRow {
   Fault::Kind kind;
   Place place;
   std::span<const FaultFieldRow> fields;
-  std::string_view effect;               // for faults of messages: the effect as observers show it
-  std::string_view effect_on_request{};  // the effect on a request; empty if it is the same
+  std::string_view effect;               // for faults of messages: the effect, for observers
+  std::string_view effect_on_request{};  // the same for a request; empty if it does not differ
 };
 
 /// Returns the rows in the order of Fault::Kind.

@@ -12,7 +12,7 @@ bool is_moment(const FaultTrigger& trigger) { return trigger.at >= SimTime{0}; }
 
 SimTime begin_of(const FaultTrigger& trigger) { return std::max(trigger.at, trigger.from); }
 
-/// Returns the end of the time in which the trigger strikes; the end is not included.
+/// Returns the end of the time during which the trigger is active; the end is not included.
 SimTime end_of(const FaultTrigger& trigger) {
   return is_moment(trigger) && trigger.lasts > SimTime{0} ? trigger.at + trigger.lasts : trigger.to;
 }
@@ -28,7 +28,7 @@ bool is_lucky(const FaultTrigger& trigger, std::int64_t number, std::uint64_t st
   return (high * static_cast<std::uint64_t>(kAlways) >> 32) < static_cast<std::uint64_t>(trigger.chance);
 }
 
-/// Returns true if the trigger selects the match of that number.
+/// Returns true if the trigger selects the match with this number.
 bool selects(const FaultTrigger& trigger, std::int64_t number, std::uint64_t stream) {
   if (number < trigger.first_nth || number > trigger.last_nth) return false;
   if (trigger.every != 0 && number % trigger.every != 0) return false;
@@ -95,7 +95,7 @@ bool strikes_time(const FaultTrigger& trigger, FaultCourse& course, SimTime now,
   course.looked_at = is_of_time_alone(trigger) ? now : course.looked_at;
   // An exhausted trigger no longer changes.
   if (is_exhausted(trigger, course) && !course.in_force) return false;
-  // A fault that strikes by chance lasts one tick, or longer if its trigger has a duration.
+  // A fault that occurs by chance lasts one tick, or longer if its trigger has a duration.
   const bool by_chance = trigger.chance != 0;
   const SimTime lasts = by_chance ? std::max(trigger.lasts, kTickLength) : trigger.lasts;
   const bool met = is_met(trigger, now, conditions);

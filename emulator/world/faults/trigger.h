@@ -1,9 +1,10 @@
-// Decides when a fault strikes: at which frames and times, under which condition, how often and for how long.
+// Decides when a fault takes effect: at which frames and times, under which condition, how often and for how
+// long.
 //
-// A trigger is evaluated on occasions. For faults of frames, each frame at their place is an occasion. For
-// faults of the machine or of a device each frame is an occasion too if the trigger is about frames;
-// otherwise it is each moment at which the time or a condition may have changed. A FaultCourse counts
-// occasions and hits. The result is a function of the occasions alone, so every run has the same hits.
+// A trigger is evaluated on occasions. For faults of frames, each frame at the fault's place is an occasion.
+// For faults of the machine or of a device, each frame is also an occasion if the trigger refers to frames;
+// otherwise, an occasion is each moment at which the time or a condition may have changed. A FaultCourse
+// counts occasions and hits. The result depends only on the occasions, so every run has the same hits.
 #pragma once
 
 #include <cstdint>
@@ -14,27 +15,27 @@
 namespace understudy::emulator::world {
 
 struct FaultTrigger {
-  // These decide which frames match. Matching frames are numbered from 1.
+  // These fields decide which frames match. Matching frames are numbered from 1.
   std::int64_t function = -1;       // -1: any
   std::int64_t station = -1;        // the addressed station; 0: broadcasts; -1: any
-  std::int64_t first_address = -1;  // the frame concerns a register from here to `last_address`; -1: any
+  std::int64_t first_address = -1;  // the frame accesses a register from here to `last_address`; -1: any
   std::int64_t last_address = -1;
-  // These also decide which occasions match.
-  SimTime at{-1};   // the first occasion from then on; with `lasts`, all occasions until that time is over;
-                    // -1: any time
+  // These fields also decide which occasions match.
+  SimTime at{-1};   // the first occasion from then on, or, with `lasts`, all occasions until that time is
+                    // over; -1: any time
   SimTime from{0};  // inclusive
   SimTime to = kForever;  // exclusive
   std::string when{};     // an expression; empty: always true
-  // These decide which matching occasions are hits; all of them must hold.
+  // These fields decide which matching occasions are hits. All of them must be fulfilled.
   std::int64_t first_nth = 1;
   std::int64_t last_nth = kNever;
-  std::int64_t every = 0;   // the match's number is a multiple of this; 0: any
+  std::int64_t every = 0;   // the number of the match is a multiple of this; 0: any number
   std::int64_t chance = 0;  // the probability, in parts of kAlways; 0: not by chance
-  /// The seed of its own random stream; -1: derived from the world's seed and the fault's number.
+  /// The seed of the fault's own random stream; -1: derived from the world's seed and the fault's number.
   std::int64_t seed = -1;
-  // These decide how often and for how long the fault strikes.
-  std::int64_t times = 0;  // the largest number of hits; 0: any number
-  SimTime lasts{0};        // `for`: all matching occasions within that time after a hit are hits as well
+  // These fields decide how often and for how long the fault takes effect.
+  std::int64_t times = 0;  // the maximum number of hits; 0: no limit
+  SimTime lasts{0};        // `for`: all matching occasions within that time after a hit are also hits
 
   bool operator==(const FaultTrigger&) const = default;
 };
@@ -46,25 +47,25 @@ struct FaultCourse {
   std::int64_t seen = 0;     // frames at the fault's place
   std::int64_t matched = 0;  // occasions that matched
   std::int64_t hits = 0;
-  SimTime until{-1};      // when the hit in effect ends
-  SimTime looked_at{-1};  // when a trigger that depends on time alone was last evaluated
-  bool was_met = false;   // true if the time and condition matched at the last check
+  SimTime until{-1};      // the end of the present hit
+  SimTime looked_at{-1};  // when a trigger that depends only on time was last evaluated
+  bool was_met = false;   // true if the time and the condition matched at the last check
   bool in_force = false;  // for faults of machines and devices
-  bool is_news = false;   // the fault has just begun or ended, and this has not been applied yet
-  // For faults of requests on a line: the last evaluated request, and the result. Each station on the line
-  // asks about the same request.
+  bool is_news = false;   // the fault has just begun or ended, but this has not been applied yet
+  // For faults of requests on a line: the last evaluated request, and the result, because each station on the
+  // line asks about the same request.
   std::uint64_t judged_character = 0;
   bool was_hit = false;
 
   bool operator==(const FaultCourse&) const = default;
 };
 
-/// Facts about a request, or about the request that a reply answers.
+/// Facts about a request, or about the request to which a reply belongs.
 struct FrameFacts {
   SimTime at{0};
   int station = 0;
   int function = 0;
-  /// Registers, or none if their number is 0.
+  /// A range of registers; none if their number is 0.
   struct Addresses {
     int first = 0;
     int count = 0;
@@ -82,29 +83,29 @@ class ConditionSource {
   ~ConditionSource() = default;
 };
 
-/// Returns true if the trigger is about frames, so that time alone does not trigger it.
+/// Returns true if the trigger refers to frames, so that time alone does not trigger it.
 bool is_about_frames(const FaultTrigger& trigger);
-/// Returns true if only time decides, so the fault strikes at exact moments rather than at ticks.
+/// Returns true if only time decides, so that the fault takes effect at exact moments rather than at ticks.
 bool is_of_time_alone(const FaultTrigger& trigger);
 
-/// Judges one frame and returns true if it is hit. Random numbers come from `stream` if the trigger has no
-/// seed.
+/// Evaluates a trigger for a frame, and returns true if the frame is hit. If the trigger has no seed, random
+/// numbers come from `stream`.
 bool strikes_frame(const FaultTrigger& trigger, FaultCourse& course, const FrameFacts& frame,
                    ConditionSource& conditions, std::uint64_t stream);
 
-/// Judges a trigger that is not about frames and returns true if it strikes now. Afterwards `course` shows
-/// whether the fault is in effect.
+/// Evaluates a trigger that does not refer to frames, and returns true if the fault takes effect now.
+/// Afterwards, `course` shows whether the fault is active.
 bool strikes_time(const FaultTrigger& trigger, FaultCourse& course, SimTime now, ConditionSource& conditions,
                   std::uint64_t stream);
 
-/// Returns the next moment at which a trigger that depends on time alone must be judged, or kForever if it is
-/// finished.
+/// Returns the next moment at which a trigger that depends only on time must be evaluated, or kForever if it
+/// is finished.
 SimTime next_moment(const FaultTrigger& trigger, const FaultCourse& course);
-/// For other triggers: returns the first tick after `done` whose end may change something, or kNever if only
-/// a frame can.
+/// For all other triggers: returns the first tick after `done` whose end may change something, or kNever if
+/// only a frame can.
 Tick next_poll(const FaultTrigger& trigger, const FaultCourse& course, Tick done);
 
-/// Returns the `n`th number, from 1, of the splitmix64 stream that begins at `seed`.
+/// Returns the `n`th number, counted from 1, of the splitmix64 stream that begins at `seed`.
 std::uint64_t draw(std::uint64_t seed, std::uint64_t n);
 
 }  // namespace understudy::emulator::world

@@ -24,7 +24,7 @@ constexpr std::int64_t kMany = 1'000'000'000'000;
 struct NumberRow {
   std::string_view name;
   std::int64_t FaultTrigger::*field;
-  std::int64_t lowest = 0;  // a smaller value means that the field is not set
+  std::int64_t lowest = 0;  // smaller values mean that the field is not set
   std::int64_t highest = 0;
 };
 constexpr std::array<NumberRow, 5> kNumbers{{

@@ -12,8 +12,8 @@ namespace understudy::emulator::world {
 
 /// Returns the names that set_trigger_field() accepts.
 std::vector<std::string> trigger_fields();
-/// Returns false if there is no such field. Throws NameError if the field cannot have that value. An address
-/// must be a number here; names in `when` are not looked up.
+/// Returns false if there is no such field. Throws NameError if the field cannot have this value. An address
+/// must be a number here, and names in `when` are not looked up.
 bool set_trigger_field(FaultTrigger& trigger, std::string_view name, const std::string& text);
 /// Throws NameError for fields that contradict each other.
 void validate_trigger(const FaultTrigger& trigger);

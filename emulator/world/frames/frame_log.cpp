@@ -51,7 +51,7 @@ void FrameLog::restart_after(std::vector<Frame> frames) {
 }
 
 void FrameLog::add(const pty::CapturedPacket& packet) {
-  // The memory of the oldest frame is reused, because this runs for every frame.
+  // The memory of the oldest frame is reused, because this code runs for every frame.
   if (frames_.size() == kept_) {
     frames_.push_back(std::move(frames_.front()));
     frames_.pop_front();
@@ -75,9 +75,9 @@ void FrameLog::add(const pty::CapturedPacket& packet) {
   if (observer_) observer_(packet);
 }
 
-/// Returns the request that a reply answers: the one that ended with the character which the reply names,
-/// even if others came in between. Replies that name none, and lines of text, belong to the last request.
-/// Only the first reply belongs to a request.
+/// Returns the request to which a reply belongs: the request that ended with the character in the reply, even
+/// if other frames came in between. Replies without such a character, and lines of text, belong to the last
+/// request. Only the first reply belongs to a request.
 const FrameLog::Frame* FrameLog::request_before(std::size_t place) const {
   const Frame& reply = frames_[place];
   const bool is_named = reply.last_character != 0 && !world_.line(reply.line).protocol.carries_text();
@@ -90,8 +90,8 @@ const FrameLog::Frame* FrameLog::request_before(std::size_t place) const {
   return nullptr;
 }
 
-/// Returns the device that a request addressed when it was sent. Without a request, it is the one that a
-/// reply's address denotes now.
+/// Returns the device that a request addressed when it was sent. Without a request, returns the device that
+/// the address in a reply refers to now.
 const Device* FrameLog::device_of(const Frame* request, const Frame& frame) const {
   const WorldLine& line = world_.line(frame.line);
   if (request == nullptr) return line.device_addressed(frame.bytes);
@@ -114,7 +114,7 @@ FrameLog::Decoded FrameLog::decode(std::size_t place) const {
                   .text = {},
                   .remark = frame.comment,
                   .bytes = frame.bytes};
-  if (frame.bytes.empty()) return decoded;  // the entry only reports what a fault did
+  if (frame.bytes.empty()) return decoded;  // the entry only reports the effect of a fault
   if (frame.direction == pty::Direction::from_host) {
     decoded.text = line.protocol.request_text(line.stations, device_of(&frame, frame), frame.bytes);
     for (const std::size_t station : frame.addressed)

@@ -1,4 +1,4 @@
-// Keeps the last frames of a world's lines, to show them after a failure or on request. They are converted
+// Keeps the last frames of a world's lines, to show them after a failure or on request. Frames are converted
 // to words only when they are shown.
 #pragma once
 
@@ -25,7 +25,7 @@ class FrameLog {
   FrameLog(const FrameLog&) = delete;
   FrameLog& operator=(const FrameLog&) = delete;
 
-  /// Passes each frame to `observer` as well.
+  /// Also passes each frame to `observer`.
   void set_observer(std::function<void(const pty::CapturedPacket&)> observer) {
     observer_ = std::move(observer);
   }
@@ -44,38 +44,40 @@ class FrameLog {
     std::span<const std::uint8_t> bytes{};   // valid until the next frame is added
     bool is_refusal = false;                 // a reply that refuses the request
     std::optional<SimTime> latency{};        // for a reply: since its request began
-    std::optional<std::uint64_t> request{};  // for a reply: the number of its request
-    /// For a request: the devices that it addressed when it was sent; none on a line without addresses.
+    std::optional<std::uint64_t> request{};  // for a reply: the number of the request
+    /// For a request: the devices that it addressed when it was sent. On a line without addresses, there are
+    /// none.
     std::vector<const Device*> devices{};
   };
-  /// Returns at most `max` of the kept frames, from that number on.
+  /// Returns at most `max` of the kept frames, beginning with number `number`.
   std::vector<Decoded> since(std::uint64_t number, std::size_t max) const;
-  /// Returns the request that a kept frame answers, or nothing if it answers none or the request is no
-  /// longer kept.
+  /// Returns the request to which a kept frame is the reply. Returns nothing if it is not a reply, or if the
+  /// request is no longer kept.
   std::optional<Decoded> request_of(std::uint64_t number) const;
   /// Returns the number of the next frame.
   std::uint64_t next_number() const { return next_number_; }
 
-  /// Forgets partly received frames, after the lines have been put into another state.
+  /// Discards partially received frames after the lines were put into another state.
   void restart();
 
-  /// A frame in the form in which the log keeps it.
+  /// A frame in the form in which the log stores it.
   struct Frame {
     std::size_t line = 0;
     pty::Direction direction = pty::Direction::from_host;
     SimTime time{0};
     std::vector<std::uint8_t> bytes;
     std::string comment{};
-    std::uint64_t last_character = 0;      // of the request, or of the answered request; 0: unknown
-    std::vector<std::size_t> addressed{};  // the line's stations that a request addressed when it was sent
+    std::uint64_t last_character = 0;      // of the request, or of a reply's request; 0: unknown
+    std::vector<std::size_t> addressed{};  // the stations that a request addressed when it was sent
   };
-  /// Returns the last `max` of the kept frames from that number on.
+  /// Returns the last `max` kept frames whose numbers are at least `number`.
   std::vector<Frame> kept_since(std::uint64_t number, std::size_t max) const;
-  /// Like restart(), but then adds these frames, the oldest first, under new numbers.
+  /// Like restart(), but then adds these frames (the oldest first) with new numbers.
   void restart_after(std::vector<Frame> frames);
 
  private:
-  // A reply is decoded with its request, which may lie several frames of other stations before it.
+  // A reply is decoded together with its request, which may be several frames earlier, with frames of other
+  // stations in between.
   static constexpr std::size_t kKept = 32;
 
   void watch();

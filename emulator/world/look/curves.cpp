@@ -44,7 +44,7 @@ std::size_t Curves::dot_of(SimTime time) const {
   return std::min(dots_ - 1, static_cast<std::size_t>(part * static_cast<double>(dots_)));
 }
 
-/// Repeats the last values in all dots up to this one, which may receive further values.
+/// Repeats the last values in all dots up to this dot, which may receive further values.
 void Curves::last_until(std::size_t dot) {
   for (; dot_ < dot; ++dot_) {
     for (Row& row : rows_) row.min[dot_ + 1] = row.max[dot_ + 1] = row.last;

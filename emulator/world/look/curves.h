@@ -1,5 +1,5 @@
-// Samples the values of some names over a stretch of time. It keeps the minimum and maximum in each of many
-// equal parts ("dots"), so a drawing of that width does not lose any peak.
+// Samples the values of several names over a stretch of time. It stores the minimum and the maximum for each
+// of many equal parts ("dots"), so a drawing of that width does not lose any peak.
 #pragma once
 
 #include <cstddef>
@@ -15,21 +15,21 @@ namespace understudy::emulator::world {
 
 class Curves final : private TickWatcher {
  public:
-  /// `to` must be later than `from`. The world must outlive it. Throws NameError.
+  /// `to` must be later than `from`. The world must outlive this object. Throws NameError.
   Curves(World& world, const std::vector<std::string>& names, SimTime from, SimTime to, std::size_t dots);
   ~Curves() override { stop(); }
   Curves(const Curves&) = delete;
   Curves& operator=(const Curves&) = delete;
 
-  /// Samples the values at this moment.
+  /// Samples the present values.
   void look();
   /// Samples the values at every tick from now on.
   void watch();
   void stop();
-  /// Ends the stretch: the last values hold until its end.
+  /// Ends the stretch of time. The last values apply until its end.
   void finish();
 
-  /// Return the values by dot. A device without power reads as 0.
+  /// Return the values per dot. Values of a device without power are 0.
   const std::vector<double>& min(std::size_t name) const { return rows_[name].min; }
   const std::vector<double>& max(std::size_t name) const { return rows_[name].max; }
 

@@ -80,9 +80,9 @@ const LookedNames::List* LookedNames::find_list(std::uint64_t number) const {
 
 bool LookedNames::is_kept(std::uint64_t number) const { return find_list(number) != nullptr; }
 
-/// Makes room for a list of that many names.
+/// Makes room for a list with that many names.
 void LookedNames::make_room(std::size_t names) {
-  // The probes never forget a name, so they are replaced from time to time.
+  // Probes keep all names forever, so they are replaced from time to time.
   if (!probes_ || resolved_ + names > 4 * kMaxKept) {
     lists_.clear();
     probes_.emplace(world_);

@@ -30,7 +30,7 @@ class ProgramSpans final : private TickWatcher {
   ProgramSpans(const ProgramSpans&) = delete;
   ProgramSpans& operator=(const ProgramSpans&) = delete;
 
-  void look() { take(world_.now()); }  // this moment alone
+  void look() { take(world_.now()); }  // only the present moment
   void watch();                        // every tick from now on
   void stop();
   /// Ends the spans that are still open, and returns all spans in the order of their ends.

@@ -59,7 +59,7 @@ void Scope::push(Tick tick) {
   }
 }
 
-/// Returns true if the condition holds. A condition without a result triggers too, with a diagnostic.
+/// Returns true if the condition is true. A condition without a result also triggers, with a diagnostic.
 bool Scope::is_met() {
   if (condition_.code.empty()) return true;
   try {
@@ -85,7 +85,7 @@ Tick Scope::next_poll(Tick done) const {
   return next;
 }
 
-/// Handles ticks in which nothing changed. While the scope is armed, only as many ticks count as fit into the
+/// Handles ticks in which nothing changed. While the scope is armed, only as many ticks count as fit in the
 /// ring.
 void Scope::on_rest(Tick last) {
   const Tick first = std::max(next_tick_, last - static_cast<Tick>(rows_) + 1);

@@ -1,5 +1,5 @@
-// Records the values of some names at each tick around the moment at which a condition becomes true, like an
-// oscilloscope's single shot. While it records, the world skips only ticks in which nothing changes.
+// Records the values of several names in each tick around the moment at which a condition becomes true, like
+// a single shot of an oscilloscope. While it records, the world skips only ticks in which nothing changes.
 #pragma once
 
 #include <cstddef>
@@ -15,10 +15,10 @@ namespace understudy::emulator::world {
 
 struct ScopeSetup {
   static constexpr std::size_t kMaxNames = 16;
-  static constexpr Tick kMaxTicks = 10'000;  // the maximum before the trigger, and after it
+  static constexpr Tick kMaxTicks = 10'000;  // the maximum number before the trigger, and after it
 
   std::vector<std::string> names;
-  std::string condition;  // empty: at once
+  std::string condition;  // empty: triggers immediately
   Tick before = 1'000;
   Tick after = 1'000;
 };
@@ -33,8 +33,8 @@ class Scope final : private TickWatcher {
   Scope(const Scope&) = delete;
   Scope& operator=(const Scope&) = delete;
 
-  /// Called after the world has been put into another state: drops earlier samples, because they did not lead
-  /// to that state. Has no effect once the scope is done.
+  /// Called after the world was put into another state. Drops earlier samples, because they did not lead to
+  /// that state. Does nothing if the scope is done.
   void restart();
 
   const ScopeSetup& setup() const { return setup_; }
@@ -44,9 +44,10 @@ class Scope final : private TickWatcher {
   std::size_t count() const { return count_; }
   /// Call this only after the trigger.
   Tick trigger_tick() const { return trigger_tick_; }
-  /// Returns why the condition had no result, which ended the scope; otherwise an empty text.
+  /// If the scope ended because the condition has no result, returns the reason; otherwise returns an empty
+  /// text.
   const std::string& diagnostic() const { return diagnostic_; }
-  /// Returns a name's value `place` samples after the first. A device without power reads as 0.
+  /// Returns the value of a name `place` samples after the first one. Values of a device without power are 0.
   double sample(std::size_t name, std::size_t place) const;
 
  private:
@@ -63,8 +64,8 @@ class Scope final : private TickWatcher {
   Expression condition_;
   std::vector<std::int32_t> handles_;
   std::vector<double> present_;
-  std::vector<double> ring_;  // one row of values for each tick
-  std::size_t rows_ = 0;      // the number of rows that it has room for
+  std::vector<double> ring_;  // one row of values per tick
+  std::size_t rows_ = 0;      // how many rows fit
   std::size_t count_ = 0;
   Tick next_tick_ = 0;
   State state_ = State::armed;

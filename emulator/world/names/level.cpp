@@ -11,7 +11,7 @@ namespace understudy::emulator::world {
 
 namespace {
 
-/// Returns 2500 for "2.5" volts. At most three digits may follow the point.
+/// Returns 2500 for "2.5" volts. At most three decimal places are allowed.
 std::optional<std::int64_t> parse_volts(std::string_view text) {
   const std::size_t point = text.find('.');
   if (point == std::string_view::npos) {

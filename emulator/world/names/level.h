@@ -1,5 +1,5 @@
 // Levels of inputs as text: 1, 0, on, off; for analog inputs 2.5V, 2500mV, or millivolts without a unit; for
-// counted inputs a whole number.
+// counted inputs an integer.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,8 @@
 
 namespace understudy::emulator::world {
 
-/// Returns nothing if the text is not a level of such an input. require_level() checks whether the input can
-/// have it.
+/// Returns nothing if the text is not a level for this kind of input. require_level() checks whether the
+/// input can have the level.
 std::optional<std::int64_t> parse_level(std::string_view text, TerminalRow::Kind kind);
 /// Returns "on or off", "a voltage such as 2.5V" or "a number".
 std::string_view level_example(TerminalRow::Kind kind);

@@ -48,8 +48,8 @@ NameError only_a_device(std::string_view name, std::string_view example) {
   return NameError(quoted(name) + " is a device; expected " + std::string(name) + "." + std::string(example));
 }
 
-/// Throws NameError if there is no such device, or if the device is left out and there are several. `has`
-/// selects the devices that the message names.
+/// Throws NameError if there is no such device, or if the device is omitted although there are several. `has`
+/// selects the devices for the message.
 Split split(const KnownDevices& devices, std::string_view name, const HasName& has,
             std::string_view example) {
   const std::size_t dot = name.find('.');

@@ -1,5 +1,5 @@
-// Resolves names on a bench: "feeder.Cord_A", "feeder.STATUS.4", "feeder.DIN_10", "feeder.A". The device may
-// be left out if there is only one.
+// Resolves names on a bench: "feeder.Cord_A", "feeder.STATUS.4", "feeder.DIN_10", "feeder.A". If there is
+// only one device, its name may be omitted.
 #pragma once
 
 #include <functional>
@@ -14,7 +14,7 @@
 
 namespace understudy::emulator::world {
 
-/// The message is one line: the unknown name, and the nearest known one.
+/// The message is one line with the unknown name and the nearest known name.
 struct NameError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -28,7 +28,7 @@ struct KnownDevice {
 };
 using KnownDevices = std::vector<KnownDevice>;
 
-/// Returns the models of the devices, each once.
+/// Returns the models of the devices without duplicates.
 std::vector<ListedModel> models_of(const KnownDevices& devices);
 
 /// All functions below throw NameError.
@@ -38,8 +38,8 @@ struct RegisterName {
 };
 RegisterName find_register(const KnownDevices& devices, std::string_view name);
 
-/// A value of a device without registers (NamedValues), such as "robot.T2PE". A device with registers has
-/// none. Only the device knows whether it has such a value.
+/// A value of a device without registers (NamedValues), such as "robot.T2PE". Devices with registers have no
+/// such values. Only the device can determine whether it has a value.
 struct ValueName {
   std::size_t device = 0;
   std::string name;
@@ -62,13 +62,14 @@ struct AxisName {
   std::size_t device = 0;
   int axis = 0;
 };
-/// With `or_counted` the caller also accepts a counted input; the message mentions both if there is neither.
+/// With `or_counted`, the caller also accepts a counted input. If there is neither, the message mentions
+/// both.
 AxisName find_axis(const KnownDevices& devices, std::string_view name, bool or_counted = false);
 
-/// Returns true if a device has something of that name.
+/// Returns true if a device has anything with that name.
 using HasName = std::function<bool(const KnownDevice& device, std::string_view name)>;
 /// Returns the error for a name that does not begin with a device although there are several. The name may be
-/// a device (then `example` shows what may follow), something that some devices have, or unknown.
+/// a device (then `example` shows what can follow it), something that some devices have, or unknown.
 NameError name_without_device(const KnownDevices& devices, std::string_view name, const HasName& has,
                               std::string_view example);
 

@@ -12,7 +12,7 @@ namespace understudy::emulator::world {
 
 namespace {
 
-/// Replaces the stops of a machine that has none. It is further away than a century of pulses can reach.
+/// Used as the stops of a machine that has none. A century of pulses cannot reach it.
 constexpr std::int64_t kFarthest_pulses = 1'000'000'000'000'000;
 
 PulseSpan wider(PulseSpan span, std::int64_t pulses) { return {span.first - pulses, span.last + pulses}; }
@@ -24,13 +24,13 @@ PulseSpan span_of(const SwitchSetup& setup, bool is_on) {
   return wider(setup.on, is_on ? setup.hysteresis_pulses : 0);
 }
 
-/// Returns the distance from the beginning of the last index pulse.
+/// Returns the distance from the beginning of the previous index pulse.
 std::int64_t index_phase(const IndexSetup& index, std::int64_t at) {
   const std::int64_t phase = (at - index.at) % index.period;
   return phase < 0 ? phase + index.period : phase;
 }
 
-/// Returns how many counts of its turn the wheel has made. The counts are spread evenly over all ticks.
+/// Returns how many counts of its turn the wheel has completed. The counts are spread evenly over all ticks.
 std::int64_t turned(const PlantAxis::State& state) {
   __extension__ using Wide = __int128;
   if (state.turn_ticks == 0) return 0;
@@ -46,7 +46,7 @@ void PlantAxis::step(Tick tick, std::int64_t pulses, DriveInputs inputs) {
     state_.faults.slipped_pulses = 0;
   }
   turn_wheel();
-  // The drive's state at the beginning of the tick decides which pulses move the machine.
+  // The state of the drive at the beginning of the tick decides which pulses move the machine.
   const std::int64_t steps = pulses_that_step(pulses);
   state_.lost_pulses += std::abs(pulses - steps);
   if (steps != 0) move(steps);
@@ -54,8 +54,8 @@ void PlantAxis::step(Tick tick, std::int64_t pulses, DriveInputs inputs) {
   find_quiet_places();
 }
 
-/// Finds the positions between which no contact changes. With a drive there are none: it runs in every tick,
-/// because its controller's outputs may have changed.
+/// Finds the positions between which no contact changes. With a drive, there are none, because a drive runs
+/// in every tick: its controller's outputs may have changed.
 void PlantAxis::find_quiet_places() {
   disturb();
   if (setup_.drive) return;
@@ -72,7 +72,7 @@ PulseSpan PlantAxis::places_alike() const {
   const PulseSpan stops = setup_.travel.value_or(PulseSpan{-kFarthest_pulses, kFarthest_pulses});
   std::int64_t from = stops.first;
   std::int64_t to = stops.last;
-  // Narrows the span to where a switch keeps its state.
+  // Narrows the span to the range in which a switch does not change.
   const auto stay = [&](bool is_on, PulseSpan on) {
     if (is_on) {
       from = std::max(from, on.first);
@@ -145,7 +145,7 @@ Tick PlantAxis::next_active_tick(Tick done) const {
 
 void PlantAxis::turn(std::int64_t counts, Tick ticks) {
   disturb();
-  // The rest of the earlier turn is added to the new one.
+  // The rest of the previous turn is added to the new turn.
   state_.turn_counts = state_.turn_counts - turned(state_) + counts;
   state_.turn_ticks = state_.ticks_to_turn = std::max<Tick>({state_.ticks_to_turn, ticks, 1});
 }
@@ -203,12 +203,12 @@ std::optional<SwitchSetup> PlantAxis::switch_of(Contact which) const {
       break;
     default: return std::nullopt;
   }
-  // A switch that is on beyond its span releases at the end of its hysteresis.
+  // A switch that is on outside its span releases at the end of its hysteresis.
   if (is_on && !holds(found.on, state_.position_pulses)) {
     found.on = wider(found.on, found.hysteresis_pulses);
     found.hysteresis_pulses = 0;
   }
-  // A switch that is on at a stop never releases there, because the machine does not pass its stops.
+  // A switch that is on at a stop never releases there, because the machine cannot pass its stops.
   const PulseSpan stops = setup_.travel.value_or(PulseSpan{-kFarthest_pulses, kFarthest_pulses});
   if (found.on.last < stops.first || found.on.first > stops.last) return std::nullopt;
   if (found.on.first <= stops.first) found.on.first = -kFarthest_pulses;
@@ -245,7 +245,7 @@ std::int64_t PlantAxis::shift(std::int64_t steps) {
 
 void PlantAxis::move_switches(std::int64_t from) {
   const std::int64_t at = state_.position_pulses;
-  // The positions that can operate a switch: the whole travel, or only its end.
+  // The positions that can affect a switch: the whole travel, or only its end.
   const PulseSpan swept =
       checks_between_ ? PulseSpan{std::min(from, at), std::max(from, at)} : PulseSpan{at, at};
   const auto move = [&](const SwitchSetup& setup, bool& is_on) {
@@ -299,7 +299,8 @@ void PlantAxis::restore(const State& state) {
 }
 
 std::uint64_t PlantAxis::Encoder::wide_counts_at(std::int64_t position_pulses) const {
-  // Whole revolutions and the rest are separate, so that only the count itself can overflow.
+  // Whole revolutions and the remainder are calculated separately, so that only the count itself can
+  // overflow.
   const std::int64_t at = position_pulses - pulses_at_0;
   const std::int64_t per_revolution = pulses_per_revolution;
   const std::int64_t revolutions = at / per_revolution - (at % per_revolution < 0 ? 1 : 0);

@@ -1,5 +1,5 @@
 // Models the machine on a controller's axis: its travel, its switches, its encoder, and the drive that turns
-// its motor. Positions are motor pulses on the machine's own scale; the position at the start is part of its
+// its motor. Positions are motor pulses on the machine's own scale. The initial position is part of the
 // setup.
 #pragma once
 
@@ -18,9 +18,9 @@ struct PulseSpan {
   std::int64_t last = 0;
 };
 
-/// A servo drive between the controller and the motor. Without a drive every pulse is a step.
+/// A servo drive between the controller and the motor. Without a drive, every pulse is a step.
 struct DriveSetup {
-  /// Ticks from being enabled to Ready. Pulses before that are lost.
+  /// The number of ticks between enabling and Ready. Earlier pulses are lost.
   Tick ready_after = 0;
   /// The level of the controller's servo output that enables the drive.
   bool enabled_by = true;
@@ -28,7 +28,7 @@ struct DriveSetup {
   bool alarm_opens = false;
 };
 
-/// The contacts around an axis, by their names in a bench.
+/// The contacts of an axis, by their names in a bench.
 enum class Contact : std::uint8_t {
   home,
   lower_limit,
@@ -45,12 +45,12 @@ inline constexpr std::array<std::string_view, 8> kContactNames{
 /// A switch that the machine passes.
 struct SwitchSetup {
   PulseSpan on;
-  std::int64_t hysteresis_pulses = 0;  // it releases only this far outside
-  bool opens = false;                  // the contact opens where the switch is on
-  int input = -1;                      // the input it is wired to; -1: the model's own
+  std::int64_t hysteresis_pulses = 0;  // it releases only this far outside its range
+  bool opens = false;                  // true: the contact opens when the switch is on
+  int input = -1;                      // the connected input; -1: according to the model
 };
 
-/// The encoder's index: on for `width` motor pulses from every `at + k * period`.
+/// The encoder's index: on for `width` motor pulses from each `at + k * period`.
 struct IndexSetup {
   std::int64_t at = 0;
   std::int64_t width = 1;
@@ -61,7 +61,7 @@ struct IndexSetup {
 struct PlantSetup {
   /// The machine's position at the start of the run.
   std::int64_t position_pulses = 0;
-  /// Hard stops. The machine does not pass them; pulses beyond are lost steps.
+  /// Hard stops. The machine cannot pass them; pulses beyond them are lost steps.
   std::optional<PulseSpan> travel;
   /// The positions at which the home switch is on.
   std::optional<PulseSpan> home;
@@ -70,13 +70,14 @@ struct PlantSetup {
   /// Limit switches are on at their position and beyond.
   std::optional<std::int64_t> lower_limit;
   std::optional<std::int64_t> upper_limit;
-  /// A switch that is on releases only this far outside the range in which it comes on.
+  /// A switch that is on releases only this far outside the range in which it goes on.
   std::int64_t home_hysteresis_pulses = 0;
   std::int64_t limit_hysteresis_pulses = 0;
-  /// True if the contact is open where the switch is on, and closed elsewhere.
+  /// True if the contact is open when the switch is on, and closed otherwise.
   bool home_opens = false;
   bool limits_open = false;
-  /// The controller's inputs to which the switches are wired, by terminal number; -1: the model's own.
+  /// The controller's inputs to which the switches are connected, by terminal number; -1: according to the
+  /// model.
   int home_input = -1;
   int lower_limit_input = -1;
   int upper_limit_input = -1;
@@ -84,18 +85,18 @@ struct PlantSetup {
   int pulses_per_revolution = 1;
   bool encoder_reversed = false;
   std::optional<IndexSetup> index;
-  /// The encoder is on a separate wheel, which only turn() turns.
+  /// The encoder is on a separate wheel, which only turn() rotates.
   bool has_wheel = false;
   std::optional<DriveSetup> drive;
 };
 
-/// The faults in effect on a machine.
+/// The active faults of a machine.
 struct MachineFaults {
   bool stalled = false;             // every pulse is lost, because the motor is blocked
   std::int64_t loses_one_in = 0;    // one pulse in this many is lost; 0: none
-  std::int64_t slipped_pulses = 0;  // how far it has been pushed by force since the last tick
-  bool alarm = false;  // the cause of the drive's alarm is present; the alarm outlasts it until it is cleared
-  std::int64_t encoder_noise_counts = 0;  // by how much the encoder's count is too high
+  std::int64_t slipped_pulses = 0;  // how far it has been pushed since the last tick
+  bool alarm = false;  // the drive's alarm has a cause; the alarm itself remains until it is cleared
+  std::int64_t encoder_noise_counts = 0;  // by how much the encoder count is too high
   bool operator==(const MachineFaults&) const = default;
 };
 
@@ -103,7 +104,7 @@ struct MachineFaults {
 enum class DriveInput : std::uint8_t { servo, alarm_clear };
 inline constexpr std::array<std::string_view, 2> kDriveInputNames{"servo", "alarm_clear"};
 
-/// The levels that the controller, or wires, give to a drive.
+/// The levels that the controller or wires set at the inputs of a drive.
 struct DriveInputs {
   bool servo = false;
   bool alarm_clear = false;
@@ -124,43 +125,45 @@ class alignas(64) PlantAxis {
     move_switches(setup_.position_pulses);
   }
 
-  /// Moves by this many steps, as far as the stops allow. The rest is lost.
+  /// Moves by this many steps, as far as the stops allow. The other steps are lost.
   void move(std::int64_t steps);
-  /// Runs one tick with the controller's pulses, and its outputs at the end of the tick, which only a drive
-  /// uses. Wires may also lead to the drive.
+  /// Runs one tick with the controller's pulses and with its outputs at the end of the tick, which only a
+  /// drive uses. Wires can also be connected to the drive.
   void step(Tick tick, std::int64_t pulses, DriveInputs inputs);
-  /// Runs a tick in which only the position and the encoder change, as in almost every tick; it touches one
-  /// cache line. For any other tick it returns false and does nothing.
+  /// Runs a tick in which only the position and the encoder change, as in almost all ticks. This accesses one
+  /// cache line. For any other tick, returns false and does nothing.
   bool step_quietly(std::int64_t pulses) {
     const std::int64_t place = state_.position_pulses + pulses;
     if (place < quiet_from_ || place > quiet_to_) return false;
     state_.position_pulses = place;
     return true;
   }
-  /// Returns the positions between which the machine can move without any other change, as long as the
-  /// controller's outputs stay the same. Empty if each pulse must be checked.
+  /// Returns the range of positions in which the machine can move without any other change, as long as the
+  /// controller's outputs do not change. The range is empty if each pulse must be checked.
   PulseSpan places_alike() const;
-  /// Moves by this many pulses at once, within places_alike(), as that many quiet ticks would.
+  /// Moves by this many pulses at once, within places_alike(). The result is the same as after as many quiet
+  /// ticks.
   void fast_forward(std::int64_t pulses) { state_.position_pulses += pulses; }
-  /// From now on, a switch that the machine passes within a tick counts as having been on. (Otherwise only
-  /// positions at the ends of ticks count, as for a controller that samples levels.)
+  /// From now on, a switch that the machine passes within a tick counts as having been on. (Otherwise, only
+  /// the positions at the ends of ticks count, as for a controller that samples levels.)
   void check_between_ticks() { checks_between_ = true; }
-  /// From now on, disabling the drive clears its alarm, because nothing is wired to its alarm-clear input.
+  /// From now on, disabling the drive clears its alarm, because nothing is connected to its alarm-clear
+  /// input.
   void clear_alarm_by_disabling() { clears_by_disabling_ = true; }
-  /// Sets the level that wires give to an input of the drive. Returns true if the level has changed.
+  /// Sets the level of a drive input that wires drive. Returns true if the level has changed.
   bool set_wired(DriveInput which, bool is_on);
-  /// Returns the levels that the controller gave to the drive in the last tick that the drive ran.
+  /// Returns the levels from the controller in the last tick in which the drive ran.
   DriveInputs seen_inputs() const { return state_.seen; }
   /// Returns true if each pulse is a step.
   bool steps_all() const {
     return !state_.faults.stalled && state_.faults.loses_one_in == 0 && !in_alarm() &&
            (!setup_.drive || state_.ready);
   }
-  /// Returns the positions at which a switch is on, given its current state, or nothing if it is never on or
-  /// does not move with the machine. The index is not among these switches, because it repeats.
+  /// Returns the positions at which a switch is on, given its current state. Returns nothing if the switch is
+  /// never on or does not move with the machine. The index is not such a switch, because it repeats.
   std::optional<SwitchSetup> switch_of(Contact which) const;
-  /// Turns the encoder's wheel evenly over this many ticks, beginning with the next. The rest of an earlier
-  /// turn is added.
+  /// Turns the encoder's wheel evenly over this many ticks, beginning with the next one. The rest of an
+  /// earlier turn is added.
   void turn(std::int64_t counts, Tick ticks);
   MachineFaults& faults() {
     disturb();
@@ -186,9 +189,9 @@ class alignas(64) PlantAxis {
   bool contact(Contact which) const;
   bool has_contact(Contact which) const;
   bool has_encoder() const { return encoder_.counts_per_revolution != 0; }
-  /// Returns counts from the position at the start, rounded towards minus infinity, so that a slow turn
-  /// through 0 counts evenly; a reversed encoder counts the same edges in the other direction. The count
-  /// wraps at 62 bits, so that a difference of two counts fits.
+  /// Returns the counts relative to the initial position. They are rounded towards minus infinity, so that a
+  /// slow turn through 0 counts evenly. A reversed encoder counts the same edges in the other direction. The
+  /// count wraps at 62 bits, so that the difference of two counts does not overflow.
   std::int64_t encoder_counts() const;
   /// Like encoder_counts(), but valid only after a quiet step.
   std::int64_t quiet_encoder_counts() const { return encoder_.counts_at(state_.position_pulses); }
@@ -197,18 +200,18 @@ class alignas(64) PlantAxis {
     return encoder_.counts_at(state_.position_pulses + pulses);
   }
 
-  /// Returns the first tick after `done` at which something changes without further input, or kNever.
+  /// Returns the first tick after `done` in which something changes without further input, or kNever.
   Tick next_active_tick(Tick done) const;
 
   const PlantSetup& setup() const { return setup_; }
   bool same_state(const PlantAxis& other) const { return state_ == other.state_; }
 
-  // --- its state: everything but the setup -------------------------------------------------------
+  // --- its state, which is everything except the setup ------------------------------------------
   struct State {
     std::int64_t position_pulses = 0;
-    std::int64_t lost_pulses = 0;     // magnitude
-    std::int64_t pulses_to_lose = 0;  // pulses since one was lost
-    std::int64_t loses_one_in = 0;    // the value of the fault's `one_in` when they were counted
+    std::int64_t lost_pulses = 0;     // in both directions
+    std::int64_t pulses_to_lose = 0;  // pulses since the last lost pulse
+    std::int64_t loses_one_in = 0;    // the `one_in` of the fault when they were counted
     bool at_home = false;
     bool at_lower_limit = false;
     bool at_upper_limit = false;
@@ -217,11 +220,11 @@ class alignas(64) PlantAxis {
     bool alarm_latched = false;
     bool ready = false;
     DriveInputs wired;
-    DriveInputs seen;  // the levels from the controller at the last tick
+    DriveInputs seen;  // the levels from the controller in the last tick
     Tick enabled_at = kNever;
     MachineFaults faults;
     std::int64_t wheel_counts = 0;
-    // The turn of the wheel: counts, its length in ticks, and the ticks left.
+    // The turn of the wheel: its counts, its length in ticks, and the remaining ticks.
     std::int64_t turn_counts = 0;
     Tick turn_ticks = 0;
     Tick ticks_to_turn = 0;
@@ -234,7 +237,7 @@ class alignas(64) PlantAxis {
   void restore(const State& state);
 
  private:
-  /// The part of the setup on which the encoder's count depends.
+  /// The part of the setup that determines the encoder count.
   struct Encoder {
     std::int64_t pulses_at_0 = 0;
     int counts_per_revolution = 0;
@@ -274,8 +277,8 @@ class alignas(64) PlantAxis {
     return {*setup_.home, setup_.home_hysteresis_pulses, setup_.home_opens, setup_.home_input};
   }
 
-  // The members of a quiet tick are on the first cache line, including `position_pulses`. The quiet range is
-  // not part of the state, because it follows from the state.
+  // The members that a quiet tick needs are on the first cache line, up to `position_pulses`. The quiet range
+  // is not part of the state, because it follows from the state.
   std::int64_t quiet_from_ = 1;
   std::int64_t quiet_to_ = 0;
   Encoder encoder_;

@@ -1,4 +1,4 @@
-// Records the maximum planned speed and acceleration of each axis. It is updated in every tick.
+// Records the maximum planned speed and acceleration of each axis, and is updated in every tick.
 #pragma once
 
 #include <cstddef>
@@ -19,12 +19,12 @@ class Peaks final : public TickWatcher {
   /// The current peaks, as a value.
   using State = std::vector<std::vector<Peak>>;  // [device][axis]
 
-  /// Watches from this moment on, if added by World::add_watcher(). The view must outlive it.
+  /// When added with World::add_watcher(), watches from this moment on. The view must outlive this object.
   explicit Peaks(const WorldView& view);
 
   void on_tick(Tick tick) override;
   Tick next_poll(Tick) const override { return kNever; }
-  /// Starts again. The speed at this moment is not counted.
+  /// Starts again. The present speed is not counted.
   void reset();
 
   const Peak& peak(std::size_t device, int axis) const {

@@ -173,7 +173,7 @@ ProbeNames::Probe ProbeNames::find(std::string_view name) const {
   }
   const auto [first, behind] = at_dot(name);
   if (find_of_line(inventory_, first, behind, probe)) return probe;
-  // The name of the device may be left out if there is only one.
+  // If there is only one device, its name may be omitted.
   const KnownDevices& known = inventory_.known();
   std::string_view rest = name;
   for (std::size_t i = 0; i < known.size(); ++i) {

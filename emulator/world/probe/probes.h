@@ -13,7 +13,8 @@ namespace understudy::emulator::world {
 
 class Probes final : public NameResolver, public ValueSource {
  public:
-  /// `view` and `peaks` must outlive it. Without `peaks`, the names of peaks are known but have no value.
+  /// `view` and `peaks` must outlive this object. Without `peaks`, the names of peaks exist but have no
+  /// value.
   explicit Probes(const WorldView& view, const Peaks* peaks = nullptr)
       : view_(view), peaks_(peaks), names_(view) {}
 
@@ -21,15 +22,15 @@ class Probes final : public NameResolver, public ValueSource {
   NamedNumber resolve(std::string_view name) const override { return names_.resolve(name); }
   /// Registers and values of a device without power are 0. Throws NameError for a peak if there are no peaks.
   Number value(std::int32_t handle) const override;
-  /// Returns the first tick after `done` at which the value may change with time alone.
+  /// Returns the first tick after `done` in which the value may change merely because time passes.
   Tick next_change(std::int32_t handle, Tick done) const;
-  /// Like the above, for all the names of a condition.
+  /// The same, for all names in a condition.
   Tick next_change(const Expression& condition, Tick done) const;
-  /// Returns the device of a register or of a named value, which have no value without power. Returns nothing
-  /// for other names.
+  /// Returns the device of a register or a named value, because these have no value without power. Returns
+  /// nothing for other names.
   std::optional<std::size_t> device_read(std::int32_t handle) const;
-  /// Returns true if the value is not always a whole number; for a device without registers, if it is not a
-  /// whole number now.
+  /// Returns true if the value is not always an integer, or, for a device without registers, if it is not an
+  /// integer now.
   bool may_be_a_fraction(std::int32_t handle) const;
 
  private:

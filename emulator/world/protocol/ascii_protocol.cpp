@@ -1,5 +1,4 @@
-// Implements Modbus ASCII: other frames around the messages of Modbus RTU, which modbus_protocol()
-// understands.
+// Implements Modbus ASCII: other frames for the messages of Modbus RTU, which modbus_protocol() handles.
 #include <algorithm>
 #include <cstdint>
 #include <memory>
@@ -43,7 +42,7 @@ class AsciiLineProtocol final : public LineProtocol {
                                             const StationConditions& conditions) const override {
     if (device.modbus() == nullptr || device.register_bank() == nullptr)
       throw std::logic_error(device.name() + ": speaks Modbus, but is not a ModbusStation with registers");
-    // A host that is slow in real time is as slow in a simulation that runs faster.
+    // If a host is slow in real time, it is equally slow in a simulation that runs faster.
     const SimTime patience = std::max<SimTime>(pty::kAsciiPatience, conditions.rest_patience);
     return std::make_unique<AsciiStation>(device, port, patience);
   }
@@ -91,7 +90,8 @@ class AsciiLineProtocol final : public LineProtocol {
     same.bytes = *carried;
     return modbus_protocol().facts_of(same);
   }
-  /// Refuses answers before the silence that ends a frame, because CR and LF end these.
+  /// Refuses faults that answer before the silence that ends a frame, because ASCII frames end with CR and
+  /// LF.
   void require_possible(const std::string& device, const Fault& fault) const override {
     if (fault.kind != Fault::Kind::early_reply) return;
     throw NameError(std::string(fault_kind(fault.kind).name) + ": " + device +

@@ -1,4 +1,4 @@
-// Implements Modbus RTU, for lines with several stations that each have a number.
+// Implements Modbus RTU, for lines with several numbered stations.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -43,7 +43,7 @@ class ModbusLineProtocol final : public LineProtocol {
     return std::make_unique<RtuStation>(device, port, framed_by);
   }
   pty::RtuFraming framing(const Model& model, const StationConditions& conditions) const override {
-    // Without wire time there is no silence to wait for, unless only silence ends a frame.
+    // If characters take no time, there is no silence to wait for, unless only silence ends a frame.
     const bool no_silence = conditions.is_instant && !conditions.strict_framing;
     return {.strict = conditions.strict_framing,
             .silence = no_silence ? SimTime{0} : model.rtu->end_silence,
@@ -84,7 +84,7 @@ class ModbusLineProtocol final : public LineProtocol {
     return modbus_reply_text(to, request, reply);
   }
 
-  /// Returns the facts of a request, mainly the registers that it concerns.
+  /// Returns the facts about a request, mainly the registers that it accesses.
   FrameFacts facts_of(const ReceivedFrame& frame) const override {
     FrameFacts facts{.at = frame.now, .station = frame.bytes[0], .function = frame.bytes[1]};
     const ModbusRequest request = parse_request_frame(frame.bytes);

@@ -25,7 +25,7 @@ std::uint16_t word_at(Bytes bytes, std::size_t place) {
   return static_cast<std::uint16_t>(bytes[place] << 8U | bytes[place + 1]);
 }
 
-/// Takes `count` values, which begin after their byte count at `at`. They must end the request.
+/// Reads `count` values, which follow their byte count at `at`. The request must end after them.
 void take_values(ModbusRequest& request, Bytes pdu, std::size_t at) {
   const std::size_t count = request.writes->count;
   const bool are_bits = is_table_of_bits(request.writes->table);
@@ -93,7 +93,7 @@ ModbusRequest parse_request(Bytes pdu) {
         request.reads = span;
         request.is_well_formed = pdu.size() == kAddressed;
         break;
-      case FunctionRow::Kind::write_one: break;  // above
+      case FunctionRow::Kind::write_one: break;  // handled above
       case FunctionRow::Kind::write_several:
         request.writes = span;
         take_values(request, pdu, kAddressed);

@@ -37,10 +37,10 @@ std::string number_of(int address) {
   return text.data();
 }
 
-/// Lists consecutive words or bits by the names of their registers, with their values if these are known.
+/// Lists consecutive words or bits by the names of their registers, with their values if they are known.
 class WordsText {
  public:
-  /// `values` has the form that it has in a frame: bits are packed.
+  /// `values` has the same form as in a frame: bits are packed.
   WordsText(const Device* device, Table table, int first, int count, std::span<const std::uint8_t> values)
       : device_(device), table_(table), first_(first), count_(count), values_(values) {}
 
@@ -63,7 +63,7 @@ class WordsText {
     return is_table_of_bits(table_) ? values_[at / 8] >> at % 8 & 1 : frame_word(values_, 2 * at);
   }
 
-  /// Returns the text of the register at word `i` and moves `i` past it. The first text also names the
+  /// Returns the text for the register at word `i` and advances `i` past it. The first text also contains the
   /// device.
   std::string next(int& i, bool is_first) const {
     const int word = i++;
@@ -139,7 +139,7 @@ std::vector<std::uint8_t> packed(Table table, std::span<const std::uint16_t> wor
   return bytes;
 }
 
-/// Returns "read 0x0E04 feeder.Cord_A", or with values "write 0x1001 feeder.Aaxis_Speed = 200".
+/// Returns "read 0x0E04 feeder.Cord_A" or, with values, "write 0x1001 feeder.Aaxis_Speed = 200".
 std::string span_text(const char* verb, const Device* device, const RegisterSpan& span,
                       std::span<const std::uint8_t> values) {
   const Table table = table_of(device, span);
@@ -244,7 +244,7 @@ std::string modbus_reply_text(const Device* to, std::span<const std::uint8_t> re
   if ((reply[1] & kExceptionBit) != 0 && reply.size() == 5) return refusal_text(to, request, reply);
   const bool is_asked = request.size() >= 4 && request[0] == reply[0] && request[1] == reply[1];
   const ModbusRequest asked = is_asked ? parse_request_frame(request) : parse_request_frame(reply);
-  // A write is answered with the beginning of its request, a mask with all of it.
+  // The answer to a write is the beginning of the request; the answer to a mask is the whole request.
   const std::size_t echoed = asked.function == static_cast<std::uint8_t>(OtherFunction::mask_write) ? 10 : 8;
   if (asked.writes && !asked.reads) return reply.size() == echoed ? "done" : hex_text(reply);
   if (!is_asked || !asked.reads || !asked.is_well_formed) return hex_text(reply);

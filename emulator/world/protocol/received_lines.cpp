@@ -10,7 +10,7 @@ namespace understudy::emulator::world {
 
 ReceivedLines lines_in(std::string_view text) {
   ReceivedLines received;
-  std::size_t begin = text.starts_with('\n') ? 1 : 0;  // skip the rest of an earlier line end
+  std::size_t begin = text.starts_with('\n') ? 1 : 0;  // skip the rest of an earlier line ending
   while (begin < text.size()) {
     const std::size_t end = text.find_first_of("\r\n", begin);
     received.lines.emplace_back(text.substr(begin, end - begin));

@@ -40,7 +40,7 @@ struct Wanted {
   int first = 0;
   int count = 0;
   bool is_write = false;
-  std::vector<std::uint16_t> values{};  // of a write; empty if they are not known
+  std::vector<std::uint16_t> values{};  // for a write; empty if they are not known
 };
 
 class Reason {
@@ -101,7 +101,7 @@ class Reason {
     return is_second ? i == 0 : i + 1 == wanted_.count;
   }
 
-  /// Returns the value that a register gets, if the request begins it at this word and contains all of it.
+  /// Returns the value for a register, if the request contains the whole register, beginning at this word.
   std::optional<Value> value_at(const Place& place, int i) const {
     const RegisterRow& row = *place.row;
     const auto word = [&](int at) { return wanted_.values[static_cast<std::size_t>(at)]; };
@@ -110,8 +110,8 @@ class Reason {
     return value_of(bits_of_wire(row, word(i), word(i + 1), bank_.low_word_first()), row.type);
   }
 
-  /// Returns "0x2710 feeder.NAME exists from firmware 1.52 on" if only a newer device has a register there,
-  /// otherwise an empty text.
+  /// Returns "0x2710 feeder.NAME exists from firmware 1.52 on" if only a device with newer firmware has a
+  /// register there, otherwise an empty text.
   std::string newer_at(int address) const {
     if (address > 0xFFFF) return "";
     const Place newer = bank_.map().at(wanted_.table, static_cast<std::uint16_t>(address), UINT16_MAX,
@@ -160,8 +160,8 @@ std::string functions_of(const RtuRules& rules) {
   return text;
 }
 
-/// Returns the maximum number of registers that a request of this function may have, or 0 if the model has no
-/// limit of its own.
+/// Returns the maximum number of registers in a request with this function, or 0 if the model does not define
+/// a limit.
 int limit_of(const RtuRules& rules, std::uint8_t code) {
   for (const FunctionLimit& limit : rules.limits)
     if (limit.code == code) return limit.max;
@@ -177,7 +177,7 @@ std::string count_reason(const Device& device, std::uint8_t code, const Wanted& 
          " are too many for one request; " + device.name() + " accepts " + std::to_string(max);
 }
 
-/// Returns what is wrong with the form of a request that has the right addresses.
+/// Returns what is wrong with the form of a request whose addresses are correct.
 std::string form_reason(const ModbusRequest& asked, std::span<const std::uint8_t> request) {
   const bool is_bit = asked.writes && asked.function == kWriteCoil && request.size() == 8;
   if (is_bit) return "a single bit can be set to 0x0000 or 0xFF00, not " + hex(request[4] << 8 | request[5]);
@@ -195,7 +195,7 @@ std::string why_refused(const Device& device, std::span<const std::uint8_t> requ
            functions_of(*device.model().rtu);
   }
   const ModbusRequest asked = parse_request_frame(request);
-  // Parts in the order in which the device checks them.
+  // The parts, in the order in which the device checks them.
   std::vector<Wanted> parts;
   const auto add = [&](const std::optional<RegisterSpan>& span, bool is_write) {
     if (!span) return;
@@ -204,7 +204,7 @@ std::string why_refused(const Device& device, std::span<const std::uint8_t> requ
                      .count = static_cast<int>(span->count),
                      .is_write = is_write});
   };
-  add(asked.mask ? asked.writes : asked.reads, false);  // a mask is applied to what is read
+  add(asked.mask ? asked.writes : asked.reads, false);  // a mask applies to the value that was read
   add(asked.writes, true);
   if (exception == kIllegalAddress && asked.is_well_formed) {
     for (const Wanted& part : parts) {

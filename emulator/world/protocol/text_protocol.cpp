@@ -1,4 +1,4 @@
-// Implements lines of text, for a line with one device, which may send unasked.
+// Implements lines of text, for a line with one device, which may also send text without a request.
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -43,7 +43,7 @@ class TextLineProtocol final : public LineProtocol {
 
   bool carries_text() const override { return true; }
   bool may_change(const LineStations& /*stations*/, const pty::CapturedPacket& /*message*/) const override {
-    return true;  // true, because only the device could tell
+    return true;  // only the device could tell
   }
 
   std::unique_ptr<pty::CaptureFrames> packets(std::size_t line, pty::RtuFraming framing,
@@ -64,9 +64,10 @@ class TextLineProtocol final : public LineProtocol {
     return !meaning_of(stations, answer).empty();
   }
 
-  /// Returns only the time, because text lines have neither station nor function.
+  /// Returns only the time, because text lines contain neither a station nor a function.
   FrameFacts facts_of(const ReceivedFrame& frame) const override { return {.at = frame.now}; }
-  /// Refuses faults that need functions, stations, checksums or exceptions, which text lines do not have.
+  /// Refuses faults that require functions, stations, checksums or exceptions, because text lines have none
+  /// of these.
   void require_possible(const std::string& device, const Fault& fault) const override {
     const std::string kind(fault_kind(fault.kind).name);
     switch (fault.kind) {
@@ -91,7 +92,7 @@ class TextLineProtocol final : public LineProtocol {
   }
 
  private:
-  /// Returns what an error answer of a station means, or an empty text for any other answer.
+  /// Returns the meaning of an error answer from a station, or an empty text for any other answer.
   static std::string meaning_of(const LineStations& stations, std::span<const std::uint8_t> answer) {
     const std::string text(answer.begin(), answer.end());
     for (const auto& station : stations) {
@@ -104,7 +105,7 @@ class TextLineProtocol final : public LineProtocol {
     }
     return {};
   }
-  /// Returns the lines one after another, each in quotes.
+  /// Returns the lines one after another, each of them in quotes.
   static std::string quoted(std::span<const std::uint8_t> bytes) {
     constexpr std::size_t kMaxCharacters = 200;
     std::string text(bytes.begin(), bytes.end());

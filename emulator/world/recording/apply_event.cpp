@@ -12,8 +12,8 @@ using What = RecordedEvent::What;
 
 namespace {
 
-/// Loads a program that was loaded in the recording. If it was refused in the recording, it may be refused
-/// again.
+/// Loads a program that was loaded in the recording. If it was refused in the recording, it may also be
+/// refused now.
 void load_as_recorded(World& world, const RecordedEvent& event) {
   try {
     world.load_program(event.where, event.text);

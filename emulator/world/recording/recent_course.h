@@ -1,4 +1,4 @@
-// The course of a world from a moment on, kept in memory so that it can be played again.
+// The course of a world since a certain moment, kept in memory so that it can be played again.
 #pragma once
 
 #include <cstddef>
@@ -17,23 +17,23 @@ namespace understudy::emulator::world {
 
 class RecentCourse {
  public:
-  /// The limit on events from outside; a longer course is not kept.
+  /// The maximum number of outside events. A longer course is not kept.
   static constexpr std::size_t kMaxEvents = 100'000;
 
-  /// Begins now. The world must outlive it.
+  /// Begins now. The world must outlive this object.
   explicit RecentCourse(World& world);
 
   /// Returns false if there were too many events.
   bool is_whole() const { return !is_too_long_; }
   SimTime begin() const { return begin_at_; }
-  /// Returns the course up to now. If no event has occurred since the last call and time has not passed its
-  /// end, returns the same object; otherwise plays the whole course again. Call it outside
-  /// World::advance_to(), while a Pause exists.
+  /// Returns the course up to now. If no event has occurred since the last call and the world has not passed
+  /// the end of the course, returns the same object; otherwise, plays the whole course again. Call this
+  /// outside World::advance_to(), while a Pause exists.
   Timeline& timeline();
-  /// Drops all events after this moment: from there, the world takes a different course.
+  /// Drops all events after this moment, because the world takes a different course from there.
   void drop_after(SimTime moment);
 
-  /// While this object exists, events are not kept, because they are the course's own events.
+  /// While this object exists, events are not kept, because they come from the course itself.
   class Pause {
    public:
     explicit Pause(RecentCourse& course) : course_(course) { course_.is_paused_ = true; }
@@ -54,8 +54,8 @@ class RecentCourse {
   std::vector<RecordedEvent> events_;
   bool is_paused_ = false;
   bool is_too_long_ = false;
-  std::unique_ptr<Timeline> timeline_;  // made from `events_`; null if it has to be made
-  Recorder recorder_;                   // the last member: it calls take() as soon as it exists
+  std::unique_ptr<Timeline> timeline_;  // created from `events_`; null if it must be created again
+  Recorder recorder_;                   // the last member, because it calls take() as soon as it exists
 };
 
 }  // namespace understudy::emulator::world

@@ -42,7 +42,7 @@ class Recorder::LineRecorder final : public pty::LineObserver {
  public:
   LineRecorder(Recorder& recorder, std::size_t number) : recorder_(recorder), number_(number) {
     recorder_.world_.add_observer(number_, *this);
-    // A snapshot of a new world does not contain what a host set before the recording began.
+    // A snapshot of a new world does not contain the settings that a host made before the recording began.
     if (const auto& set = recorder_.world_.line(number_).line.settings_of_host()) on_host_settings(set);
   }
   ~LineRecorder() override { recorder_.world_.remove_observer(number_, *this); }
@@ -63,7 +63,7 @@ class Recorder::LineRecorder final : public pty::LineObserver {
   void on_host_closed() override { note(What::closed); }
   void on_host_purged() override { note(What::purged); }
   void on_host_settings(const std::optional<pty::HostSettings>& settings) override {
-    // The settings are reported again with every group of bytes.
+    // The settings are reported again with each group of bytes.
     if (are_settings_known_ && settings == settings_) return;
     are_settings_known_ = true;
     settings_ = settings;

@@ -15,16 +15,17 @@ class Recorder final : private OutsideListener {
  public:
   /// Starts now. `take` receives each event. The world must outlive the recorder.
   Recorder(World& world, std::function<void(RecordedEvent event)> take);
-  /// Like the above, but as text: `take` receives the header's line, then a line for each event, all with
-  /// line ends.
+  /// The same, but as text: `take` receives the header line, followed by a line for each event. All lines
+  /// have line endings.
   Recorder(World& world, const RecordingHeader& header, std::function<void(std::string_view line)> take);
   /// Ends the recording without a final state.
   ~Recorder() override;
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
 
-  /// Writes, once, that the recording ends at this moment, with the state that a replay must also reach, and
-  /// with the failure of a scenario if there was one. It must not be called from within World::advance_to().
+  /// Writes that the recording ends at this moment, with the state that a replay must reach and, if a
+  /// scenario failed, its failure. Further calls do nothing. Do not call this from within
+  /// World::advance_to().
   void finish(RecordedFailure failed = {});
   /// Writes an event that the world does not report.
   void note(RecordedEvent event) { take(std::move(event)); }

@@ -123,7 +123,7 @@ bool truth_at(const Json& object, const char* key) {
   return value.get<bool>();
 }
 
-/// Reads the settings of a host's port. Parity and data bits may be unknown.
+/// Parses the settings of a host's port. Parity and data bits may be unknown.
 pty::HostSettings host_at(const Json& object) {
   pty::HostSettings host{.baud = static_cast<int>(number_at(object, "baud", 0, INT32_MAX)),
                          .stop_bits = static_cast<int>(number_at(object, "stop_bits", 1, 2))};
@@ -155,7 +155,7 @@ std::vector<std::uint8_t> bytes_at(const Json& object, const char* key) {
   return bytes;
 }
 
-/// Reads a failure. Recordings of earlier versions have only the text.
+/// Parses a failure. Recordings from earlier versions contain only the text.
 RecordedFailure failure_at(const Json& object, SimTime end) {
   const auto text = [&](const char* key) {
     return object.contains(key) ? text_at(object, key) : std::string();
@@ -237,8 +237,8 @@ RecordingHeader parse_header(std::string_view text) {
 
 namespace {
 
-/// Builds the line of an event by hand, because a JSON library's objects would take most of the recording
-/// time. The library is still used to escape texts.
+/// Builds the line for an event by hand, because the objects of a JSON library would take most of the
+/// recording time. The library is still used to escape texts.
 class EventLine {
  public:
   EventLine(SimTime at, What what) {

@@ -1,5 +1,5 @@
-// A recording holds everything that reached a world from outside and everything that its stations sent, with
-// simulated times. It consists of JSON lines: a header, then one event per line, in order. See
+// A recording contains everything that reached a world from outside and everything that its stations sent,
+// with simulated times. It consists of JSON lines: a header, followed by one event per line, in order. See
 // docs/recordings.md.
 #pragma once
 
@@ -17,13 +17,13 @@
 
 namespace understudy::emulator::world {
 
-/// The beginning of a recording, which is enough to create the world again.
+/// The beginning of a recording, which is enough to recreate the world.
 struct RecordingHeader {
   std::string version;  // the version of the program that recorded it
-  std::string bench;    // in the form of bench_text.h, memories included
+  std::string bench;    // in the form of bench_text.h, including memories
   WorldOptions options;
   std::uint64_t seed = 0;
-  /// The world's state (snapshot_file.h) if the world ran before the recording began; otherwise empty.
+  /// The state of the world (snapshot_file.h) if it ran before the recording began; otherwise empty.
   std::string snapshot;
 };
 
@@ -40,21 +40,21 @@ struct RecordedEvent {
   enum class What : std::uint8_t {
     opened,    // a host opened line `where`
     closed,    // a host closed line `where`
-    settings,  // the host set `host`; no value: it left the settings unchanged
+    settings,  // a host set `host`; if that has no value, it left the settings unchanged
     bytes,     // a host wrote `bytes`
     departed,  // like `bytes`, from a host that has since closed the line
-    purged,    // the host flushed bytes that were not on the wire yet
+    purged,    // a host flushed bytes that were not on the line yet
     nothing_more,
     sent,     // stations sent `bytes` on the line, which a replay must match
     input,    // terminal `place` of device `where` was set to `value`
     power,    // the device was switched to `value`
-    inject,   // the fault `fault` was injected
+    inject,   // `fault` was injected
     clear,    // fault number `value` was cleared
-    write,    // `write` was made without using the line
-    assign,   // a device without registers was given the value `real` by the name `text`
-    program,  // a device was given the program `text`; the device refused it if `value` is not 0
-    command,  // a device was given the command `text` without using the line
-    wait,     // thread `where` of a host in simulated time has waited since `since`, as `text` describes
+    write,    // `write` was executed without using the line
+    assign,   // the value `text` of a device without registers was set to `real`
+    program,  // the program `text` was loaded; the device refused it if `value` is not 0
+    command,  // the command `text` was executed without using the line
+    wait,     // thread `where` of a host in simulated time has waited since `since` (`text`)
     end,      // the recording ends here; `text` is the final state (snapshot_file.h), or empty
   } what = What::end;
   SimTime at{0};
@@ -71,7 +71,7 @@ struct RecordedEvent {
   PreparedWrite write{};
 };
 
-/// Returns one line without its line end.
+/// Return one line without its line ending.
 std::string to_line(const RecordingHeader& header);
 std::string to_line(const RecordedEvent& event, const KnownDevices& devices);
 

@@ -29,7 +29,7 @@ std::string why_no_older_part(const std::string& path) {
   struct stat status = {};
   if (::lstat(path.c_str(), &status) != 0) return errno == ENOENT ? "" : std::strerror(errno);
   if (S_ISREG(status.st_mode)) return why_not_writable(path, ContentKind::recording);
-  // A link is not followed, because the older part stays in the recording's folder.
+  // Links are not followed, because the older part stays in the folder of the recording.
   return "it is " + kind_of_file(status.st_mode) + "; expected a recording to replace, or a free path";
 }
 
@@ -53,7 +53,7 @@ void RecordingSpool::begin() {
   });
 }
 
-/// Renames the file, so that its name is free for the next one. Throws GrowingFileError.
+/// Renames the file, so that its name is available for the next file. Throws GrowingFileError.
 void RecordingSpool::put_aside() {
   const std::string path = file_->target();
   const std::string kept = path + kOlderPart;

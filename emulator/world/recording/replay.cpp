@@ -32,7 +32,7 @@ namespace {
 
 using What = RecordedEvent::What;
 
-/// Collects what stations send in the replay until these bytes are compared.
+/// Collects what stations send during the replay until the bytes are compared.
 class SentBytes {
  public:
   struct Sent {
@@ -96,7 +96,7 @@ std::string text_of(const World& world, std::size_t line, SimTime at,
   return hex_words_of(bytes) + " on " + world.line(line).line.name() + " at " + format_duration(at);
 }
 
-/// Returns the first difference, or an empty text if the output is as recorded.
+/// Returns the first difference, or an empty text if the output matches the recording.
 std::string compare(const World& world, SentBytes& sent_bytes, const RecordedEvent& recorded,
                     std::uint64_t bytes_before) {
   const std::string expected = text_of(world, recorded.where, recorded.at, recorded.bytes);
@@ -119,8 +119,8 @@ std::string compare(const World& world, SentBytes& sent_bytes, const RecordedEve
 }
 
 /// Compares the world with the state at the end of the recording. Returns an empty text if they agree in
-/// everything that affects the model, which excludes bytes that a host has not read yet. A state written by
-/// another version cannot be compared.
+/// everything that affects the model (bytes that a host has not read yet do not). A state from another
+/// version cannot be compared.
 std::string compare_state(const World& world, const RecordingHeader& header, const std::string& text) {
   if (text.empty() || header.version != program_version()) return {};
   WorldState recorded = parse_snapshot(text, kBenchOfRecording);
@@ -132,7 +132,7 @@ std::string compare_state(const World& world, const RecordingHeader& header, con
   return found.empty() ? found : "ends in a different state: " + found + " (recorded against replayed)";
 }
 
-/// The lines of a recording. Errors name the line number.
+/// The lines of a recording. Error messages contain the line number.
 class RecordedLines {
  public:
   RecordedLines(std::istream& recording, std::string name) : recording_(recording), name_(std::move(name)) {}
@@ -144,7 +144,7 @@ class RecordedLines {
   }
   const std::string& line() const { return line_; }
   std::size_t number() const { return number_; }
-  /// Returns true if the line has no line end, because the writer was killed while it wrote it.
+  /// Returns true if the line has no line ending, because the writer was killed while writing it.
   bool is_torn() const { return recording_.eof(); }
   RecordingError error(const std::string& what) const {
     return RecordingError(name_ + ":" + std::to_string(std::max<std::size_t>(number_, 1)) + ": " + what);
@@ -222,7 +222,7 @@ Replayed replay(ModelList models, std::istream& recording, const std::string& na
       result.bytes_sent += event.bytes.size();
       continue;
     }
-    // Everything that is due must be sent before the next input from outside.
+    // Everything that is due must be sent before the next outside input.
     expect_silence();
     result.has_end = event.what == What::end;
     if (watcher && result.difference.empty()) watcher->happened(event, lines.number());

@@ -13,15 +13,15 @@ namespace understudy::emulator::world {
 
 struct ReplayResult {
   enum class Verdict : std::uint8_t {
-    same,       // every byte matches, at its time
-    different,  // `difference` is the first one
-    stopped,    // it stopped at the requested time, or at the recording's end if that comes first
+    same,       // every byte matches, including its time
+    different,  // `difference` is the first difference
+    stopped,    // it stopped at the requested time, or earlier at the end of the recording
   } verdict = Verdict::same;
   std::string difference;  // one line
   SimTime reached{0};
   std::uint64_t events = 0;
   std::uint64_t bytes_sent = 0;
-  bool has_end = false;  // false if the recording breaks off, because its program was killed
+  bool has_end = false;  // false if the recording breaks off because its program was killed
 };
 
 struct Replayed {
@@ -30,21 +30,21 @@ struct Replayed {
   ReplayResult result;
 };
 
-/// Observes a replay. It is created after the world has been put into the recording's first state, and
-/// destroyed before the world.
+/// Observes a replay. It is created after the world was put into the recording's first state, and destroyed
+/// before the world.
 class ReplayWatcher {
  public:
   virtual ~ReplayWatcher() = default;
-  /// Called at the world's current time, before the event is applied; `line_number` is its line in the
-  /// recording.
+  /// Called at the world's current time, before the event is applied. `line_number` is the event's line in
+  /// the recording.
   virtual void happened(const RecordedEvent&, std::size_t /*line_number*/) {}
-  /// Called at the end of the replay, whatever its verdict.
+  /// Called at the end of the replay, with any verdict.
   virtual void ended() {}
 };
 using ReplayWatcherMaker = std::function<std::unique_ptr<ReplayWatcher>(World&)>;
 
-/// Replays a recording whose devices are of the given models. `name` stands for the file in messages:
-/// RecordingError "name:line: field: what". The replay does not continue beyond `until`. `watch` may return a
+/// Replays a recording whose devices may have the given models. In messages, `name` is used as the file name:
+/// RecordingError "name:line: field: what". The replay stops at `until` at the latest. `watch` may return a
 /// watcher. `done` receives the world at the end.
 Replayed replay(ModelList models, std::istream& recording, const std::string& name,
                 std::optional<SimTime> until, const ReplayWatcherMaker& watch = {},

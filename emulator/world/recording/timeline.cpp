@@ -31,7 +31,7 @@ Timeline::Timeline(World& world, const WorldState& begin, std::vector<RecordedEv
   on_way();
 }
 
-/// Plays the events up to `until`. Returns the first event that is later.
+/// Plays the events up to `until`. Returns the index of the first later event.
 std::size_t Timeline::play(World& world, std::size_t next_event, SimTime until) const {
   for (; next_event < events_.size() && events_[next_event].at <= until; ++next_event) {
     world.advance_to(events_[next_event].at);
@@ -42,7 +42,7 @@ std::size_t Timeline::play(World& world, std::size_t next_event, SimTime until) 
   return next_event;
 }
 
-/// Drops output that no host has read, so that it does not reach a host that opens the line afterwards.
+/// Drops output that no host has read, so that it does not reach a host that opens the line later.
 void Timeline::drop_output(World& world) {
   for (std::size_t i = 0; i < world.line_count(); ++i) {
     world.take_output(i, world.line(i).line.output().size());
@@ -67,12 +67,12 @@ void Timeline::go_to(SimTime time,
   time = std::clamp(time, begin(), end_);
   const auto later = std::upper_bound(keyframes_.begin(), keyframes_.end(), time,
                                       [](SimTime at, const Keyframe& keyframe) { return at < keyframe.at; });
-  // The previous keyframe is better if it is near, because observers then see the events that led to the
+  // If the previous keyframe is near, it is better, because observers then see the events that led to the
   // moment.
   const bool has_near = later - keyframes_.begin() > 1 && time - (later - 2)->at <= 2 * kApart;
   const Keyframe& from = *(later - (has_near ? 2 : 1));
   set_state(from.state, static_cast<std::size_t>(&from - keyframes_.data()));
-  restore(world_, from.state);  // also restores the hosts of that time, instead of the current ones
+  restore(world_, from.state);  // also restores the hosts of that time, in place of the current hosts
   next_event_ = play(world_, from.next_event, time);
 }
 

@@ -1,4 +1,4 @@
-// Moves to any moment of a recording, forwards or backwards, from the keyframe before it.
+// Moves to any moment of a recording, forwards or backwards, starting from the previous keyframe.
 #pragma once
 
 #include <cstddef>
@@ -16,13 +16,13 @@ namespace understudy::emulator::world {
 
 class Timeline {
  public:
-  /// The shortest time between keyframes. The time is longer if there would be too many keyframes.
+  /// The minimum time between keyframes. It becomes longer if there would otherwise be too many keyframes.
   static constexpr SimTime kApart = std::chrono::seconds(1);
   static constexpr std::size_t kMaxKeyframes = 1'000;
 
-  /// Applies the events in order, from the state in which the recording begins. `on_way` is called at each
-  /// keyframe except the first, and at the end; the world stays in that state. The world must be made from
-  /// the recording's bench and outlive this object.
+  /// Applies the events in order, beginning with the state in which the recording begins. `on_way` is called
+  /// at the end, and at each keyframe except the first; the world then stays in that state. The world must be
+  /// created from the recording's bench and outlive this object.
   Timeline(World& world, const WorldState& begin, std::vector<RecordedEvent> events, SimTime end,
            const std::function<void()>& on_way);
 
@@ -32,15 +32,16 @@ class Timeline {
   std::size_t keyframes() const { return keyframes_.size(); }
   SimTime time_of_keyframe(std::size_t number) const { return keyframes_[number].at; }
 
-  /// Moves the world to that time, after all events of that moment. `set_state` puts it into the state of a
-  /// keyframe; it also receives the keyframe's number, which equals the number of `on_way` calls before it.
+  /// Moves the world to that time, after all events of that moment. `set_state` puts the world into the state
+  /// of a keyframe. It also receives the keyframe's number, which equals the number of earlier `on_way`
+  /// calls.
   void go_to(SimTime time, const std::function<void(const WorldState&, std::size_t keyframe)>& set_state);
-  /// Continues from the world's current time to `until`, or until the world has been stopped. Afterwards, all
+  /// Continues from the world's current time to `until`, or until the world is stopped. Afterwards, all
   /// events of that moment have happened.
   void play_on(SimTime until, const std::function<bool()>& is_stopped);
 
-  /// Plays a stretch of time once more on another world, made from the same bench, and calls `look` at its
-  /// beginning, then at intervals of `apart`, and at its end.
+  /// Plays a stretch of time again in another world from the same bench, and calls `look` at its beginning,
+  /// at intervals of `apart`, and at its end.
   void play_again(World& other, SimTime from, SimTime to, SimTime apart,
                   const std::function<void()>& look) const;
 
@@ -57,7 +58,7 @@ class Timeline {
   std::vector<RecordedEvent> events_;
   SimTime end_;
   std::vector<Keyframe> keyframes_;
-  std::size_t next_event_ = 0;  // the first event that is not in the world's past
+  std::size_t next_event_ = 0;  // the first event that has not been applied to the world
 };
 
 }  // namespace understudy::emulator::world

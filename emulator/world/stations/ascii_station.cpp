@@ -47,7 +47,7 @@ ReceivedFrame received_frame(const Device& device, const pty::AsciiFrame& frame,
 
 }  // namespace
 
-// Without power a station receives nothing.
+// Without power, a station receives nothing.
 void AsciiStation::receive(const pty::TimedByte& byte) {
   if (!device_.powered()) return;
   if (auto frame = state_.framer.push(byte)) state_.waiting.push_back(*std::move(frame));

@@ -1,5 +1,5 @@
-// A Modbus ASCII station: a device's presence on a line whose frames are lines of hexadecimal digits. It
-// serves a frame when its line feed is over.
+// A Modbus ASCII station: the presence of a device on a line whose frames are lines of hexadecimal digits. It
+// serves a frame at the end of its line feed.
 #pragma once
 
 #include <vector>
@@ -12,7 +12,7 @@ namespace understudy::emulator::world {
 
 class AsciiStation final : public LineStation {
  public:
-  /// `patience`: the longest time between two characters of a frame.
+  /// `patience` is the maximum time between two characters of a frame.
   AsciiStation(Device& device, std::size_t port, pty::SimTime patience)
       : LineStation(device, port, state_.counters, state_.late),
         state_{.framer = pty::AsciiFramer(patience), .counters = {}} {}
@@ -32,7 +32,7 @@ class AsciiStation final : public LineStation {
   struct State {
     pty::AsciiFramer framer;
     StationCounters counters;
-    std::vector<pty::AsciiFrame> waiting{};  // to be served within the event that completed it: at most one
+    std::vector<pty::AsciiFrame> waiting{};  // at most one, served when it is complete
     std::vector<FaultyWire::Late> late{};
   };
   const State& save() const { return state_; }

@@ -1,6 +1,6 @@
-// Stands between a line and a station to apply faults: messages arrive late, garbled, twice or not at all. A
-// station passes everything that it receives and sends to the wire, which returns what is left of it to the
-// station (End) at the right time.
+// Applies faults between a line and a station: messages arrive late, garbled, twice or not at all. A station
+// passes everything that it receives and sends to the wire, which returns what remains of it to the station
+// (End) at the right time.
 //
 //   received ──passes()──> whole: the station serves it       sent ──answer()──> End::transmit()
 //                 └──> pieces ──> End::serve_piece(), late ones in run()    └──> pieces, late ones in run()
@@ -19,16 +19,16 @@ namespace understudy::emulator::world {
 
 class FaultyWire {
  public:
-  /// The maximum number of messages in transit; further ones are lost.
+  /// The maximum number of messages in transit. Further messages are lost.
   static constexpr std::size_t kMaxLate = 256;
 
-  /// The end of the wire: the station.
+  /// The end of the wire, which is the station.
   class End {
    public:
-    /// Handles what is left of a request, as if it had been received like that.
+    /// Handles what remains of a request, as if it had been received in this form.
     virtual void serve_piece(std::span<const std::uint8_t> bytes, std::uint64_t last_character,
                              pty::SimTime now, pty::Transmitter& out) = 0;
-    /// Sends what is left of an answer to the request that ended with that character.
+    /// Sends what remains of the answer to the request that ended with that character.
     virtual void transmit(std::span<const std::uint8_t> bytes, std::uint64_t last_character,
                           pty::Transmitter& out) = 0;
 
@@ -39,18 +39,18 @@ class FaultyWire {
   /// A message in transit.
   struct Late {
     pty::SimTime at{0};
-    bool is_reply = false;  // otherwise a request
+    bool is_reply = false;  // false: a request
     std::uint64_t last_character = 0;
     std::vector<std::uint8_t> bytes{};
   };
   /// Throws std::invalid_argument if the late messages are impossible.
   static void check(const std::vector<Late>& late);
 
-  /// `late` is the wire's state, in chronological order. It is a part of the station's state.
+  /// `late` is the wire's state, in chronological order. It is part of the station's state.
   FaultyWire(End& end, std::vector<Late>& late) : end_(end), late_(late) {}
 
-  /// Sets the source of faults; null: no faults. Each frame is passed to it with the numbers of the device
-  /// and the line.
+  /// Sets the source of faults; null: no faults. For each frame, the source receives the numbers of the
+  /// device and the line.
   void set_faults(FrameFaults* faults, std::size_t device, std::size_t line) {
     faults_ = faults;
     device_ = device;
@@ -60,13 +60,13 @@ class FaultyWire {
   // --- what the station receives ------------------------------------------------------------------
   /// Returns true if there may be faults. Without faults, no frame is served early.
   bool is_broken() const { return faults_ != nullptr; }
-  /// Called when a character has completed this frame, which a fault may treat as complete at once.
+  /// Called when a character completes this frame. A fault may treat the frame as complete immediately.
   void check_completed(const ReceivedFrame& frame);
   /// Called when the completed frame no longer exists.
   void forget_early_frame() { is_early_ = false; }
   /// Returns true once for a frame that must be served before the silence after it ends.
   bool take_early_frame();
-  /// Called when a request is complete. Returns true if it arrived complete; otherwise what is left of it
+  /// Called when a request is complete. Returns true if it arrived complete; otherwise, what remains of it
   /// arrives in pieces.
   bool passes(const ReceivedFrame& request, pty::Transmitter& out);
 
@@ -79,7 +79,7 @@ class FaultyWire {
 
   // --- time ------------------------------------------------------------------------------------
   std::optional<pty::SimTime> due() const;
-  /// Delivers late messages whose time has come.
+  /// Delivers the late messages that are due.
   void run(pty::SimTime now, pty::Transmitter& out);
   /// Drops all messages in transit.
   void reset();

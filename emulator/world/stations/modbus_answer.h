@@ -1,4 +1,4 @@
-// Carries out a frame for a Modbus station, whatever its framing is.
+// Executes a frame for a Modbus station, independent of the framing.
 #pragma once
 
 #include <array>
@@ -13,8 +13,8 @@ namespace understudy::emulator::world {
 
 using ReplyFrame = std::array<std::uint8_t, pty::kRtuMaxFrame>;
 
-/// Executes an RTU frame, counts it, and puts the reply, also an RTU frame, into `reply`. Returns its size;
-/// 0: no reply. `request` is the frame as the wire had it.
+/// Executes an RTU frame, counts it, and stores the reply, which is also an RTU frame, in `reply`. Returns
+/// the size of the reply; 0: no reply. `request` is the frame as it was on the line.
 std::size_t answer_frame(Device& device, FaultyWire& wire, StationCounters& counters,
                          const ReceivedFrame& request, std::span<const std::uint8_t> frame, ReplyFrame& reply,
                          pty::Transmitter& out);

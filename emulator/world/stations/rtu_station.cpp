@@ -32,7 +32,7 @@ void RtuStation::run(pty::SimTime now, pty::Transmitter& out) {
     if (const auto frame = state_.framer.take_early()) take_frame(*frame, now, out);
   }
   while (const auto frame = state_.framer.take_due(now)) {
-    report_errors(state_.framer);  // errors before the frame come first
+    report_errors(state_.framer);  // errors that precede the frame come first
     take_frame(*frame, now, out);
   }
   report_errors(state_.framer);

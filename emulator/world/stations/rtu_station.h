@@ -1,4 +1,4 @@
-// A Modbus RTU station: a device's presence on a line. It receives frames from its own framer, asks the
+// A Modbus RTU station: the presence of a device on a line. It receives frames from its own framer, asks the
 // device whether the address is its own, and answers.
 #pragma once
 
@@ -14,7 +14,7 @@ class RtuStation final : public LineStation {
       : LineStation(device, port, state_.counters, state_.late),
         state_{.framer = pty::RtuFramer(framing), .counters = {}} {}
 
-  // Without power a station receives nothing.
+  // Without power, a station receives nothing.
   void on_start_bit(pty::SimTime at) override {
     if (!device_.powered()) return;
     state_.framer.start_bit(at);
@@ -46,7 +46,7 @@ class RtuStation final : public LineStation {
   std::function<void()> read_state(StateReader& reader) override;
   std::string difference(StateReader& a, StateReader& b, const std::string& path) const override;
 
-  /// What the station has received and counted. The device's state is separate.
+  /// What the station has received and counted. The state of the device is separate.
   struct State {
     pty::RtuFramer framer;
     StationCounters counters;
@@ -55,7 +55,7 @@ class RtuStation final : public LineStation {
   const State& save() const { return state_; }
 
  private:
-  /// Must be called after each call of the framer. Reports errors to the device.
+  /// Call this after each call of the framer. It reports errors to the device.
   void report_errors(pty::RtuFramer& framer) {
     if (framer.has_errors()) report_each_error(framer);
   }

@@ -21,7 +21,7 @@ namespace understudy::emulator::world {
 namespace {
 
 constexpr std::size_t kMaxWordsRead = 125;
-constexpr std::size_t kMaxWritten = 1968;  // bits, each held in a word while the request is served
+constexpr std::size_t kMaxWritten = 1968;  // bits; each occupies a word while the request is served
 constexpr std::uint16_t kOn = 0xFF00;
 constexpr std::uint16_t kOff = 0x0000;
 
@@ -48,7 +48,7 @@ ModbusException exception_for(const Objection& objection) {
   return ModbusException::illegal_data_address;
 }
 
-/// Returns an exception reply. `row` is null if the function is not served.
+/// Returns an exception reply. `row` is null if the function is not supported.
 ModbusReply exception(Pdu pdu, const FunctionRow* row, const Objection& objection) {
   const ModbusException code = exception_for(objection);
   ModbusReply reply;
@@ -71,7 +71,7 @@ ModbusReply exception(Pdu pdu, const FunctionRow* row, const Objection& objectio
 
 Objection bad_value(Cause cause) { return {Refusal::bad_value, cause, 0}; }
 
-/// A function that the model serves: the table that it uses in this model, and the model's limit.
+/// A function that the model supports: the table that it uses in this model, and the model's limit.
 struct Service {
   const FunctionRow& row;
   Table table;
@@ -83,7 +83,7 @@ struct Service {
   }
 };
 
-/// Returns the beginning of the request: the function and the four bytes after it.
+/// Returns the first part of the request: the function and the following four bytes.
 ModbusReply echo(Pdu pdu) {
   ModbusReply reply;
   std::copy_n(pdu.begin(), 5, reply.pdu.begin());
@@ -146,7 +146,7 @@ ModbusReply write_several(RegisterBank& bank, const Service& service, Pdu pdu) {
   return refused ? exception(pdu, &service.row, refused) : echo(pdu);
 }
 
-/// Returns null if the function cannot be served, or if the model does not support it.
+/// Returns null if the function is not implemented, or if the model does not support it.
 const FunctionRow* find_function(const RtuRules& rules, std::uint8_t code) {
   if (std::find(rules.functions.begin(), rules.functions.end(), code) == rules.functions.end())
     return nullptr;
@@ -191,7 +191,7 @@ ModbusReply report_server_id(const RtuRules& rules, Pdu pdu) {
   return reply;
 }
 
-/// Sets and clears some bits of a holding register: (old value AND and-mask) OR (or-mask AND NOT and-mask).
+/// Sets and clears bits in a holding register: (old value AND and-mask) OR (or-mask AND NOT and-mask).
 ModbusReply mask_write(RegisterBank& bank, Pdu pdu) {
   constexpr std::size_t kSize = 7;
   const FunctionRow& writing = *function_for(Table::holding, FunctionRow::Kind::write_one);
@@ -209,8 +209,8 @@ ModbusReply mask_write(RegisterBank& bank, Pdu pdu) {
   return reply;
 }
 
-/// Writes registers, then reads registers, in one request. It is refused before anything is written if its
-/// reading part cannot be served.
+/// Writes registers, then reads registers, in one request. If the read cannot be executed, the request is
+/// refused before anything is written.
 ModbusReply read_and_write(RegisterBank& bank, const RtuRules& rules, Pdu pdu) {
   constexpr std::size_t kBeforeData = 10;
   constexpr std::size_t kMaxWords = 121;
@@ -254,7 +254,7 @@ ModbusReply read_and_write(RegisterBank& bank, const RtuRules& rules, Pdu pdu) {
   return reply;
 }
 
-/// Reads the objects of the device identification: a stream of them, or one.
+/// Reads objects of the device identification, either a stream of objects or a single one.
 ModbusReply identify(const RtuRules& rules, Pdu pdu) {
   constexpr std::uint8_t kMeiType = 14;
   constexpr std::uint8_t kOne = 4;
@@ -282,7 +282,7 @@ ModbusReply identify(const RtuRules& rules, Pdu pdu) {
   for (const IdentityObject& object : rules.identity) {
     if (object.id < first || object.id > last) continue;
     if (reply.size + 2 + object.text.size() > reply.pdu.size()) {
-      reply.pdu[4] = 0xFF;  // more objects follow
+      reply.pdu[4] = 0xFF;  // more objects will follow
       reply.pdu[5] = object.id;
       break;
     }

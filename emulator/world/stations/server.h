@@ -1,4 +1,4 @@
-// Serves Modbus requests from a device's register map. It handles functions and exceptions, but not frames,
+// Executes Modbus requests with a device's register map. It handles functions and exceptions, but not frames,
 // addresses or time. (MODBUS Application Protocol V1.1b3.)
 #pragma once
 
@@ -19,7 +19,7 @@ enum class ModbusException : std::uint8_t {
   device_busy = 6,
 };
 
-/// A function code: its table, its kind of access, and its limit for one request.
+/// A function code: its table, its kind of access, and its limit per request.
 struct FunctionRow {
   enum class Kind : std::uint8_t { read, write_one, write_several };
 
@@ -41,7 +41,7 @@ inline constexpr FunctionRow kModbusFunctions[] = {
     {0x10, Table::holding, FunctionRow::Kind::write_several, 123},
 };
 
-/// Functions that are more than one access to one table. Only models that list them support them.
+/// Functions that are not a single access to one table. Only models that list them support them.
 enum class OtherFunction : std::uint8_t {
   diagnostics = 0x08,  // sub-function 0: returns the request
   server_id = 0x11,
@@ -51,7 +51,7 @@ enum class OtherFunction : std::uint8_t {
 };
 struct OtherFunctionRow {
   OtherFunction code;
-  int max = 1;  // the maximum number of registers to read; the standard allows 121 to be written
+  int max = 1;  // the maximum number of registers to read; the standard allows writing 121
 };
 inline constexpr OtherFunctionRow kOtherModbusFunctions[] = {{OtherFunction::diagnostics},
                                                              {OtherFunction::server_id},
@@ -59,7 +59,8 @@ inline constexpr OtherFunctionRow kOtherModbusFunctions[] = {{OtherFunction::dia
                                                              {OtherFunction::read_and_write, 125},
                                                              {OtherFunction::identification}};
 
-/// Returns the function that reads or writes a table, or null if there is none, as for writing inputs.
+/// Returns the function that reads or writes a table, or null if there is none, for example for writing
+/// inputs.
 constexpr const FunctionRow* function_for(Table table, FunctionRow::Kind kind) {
   for (const FunctionRow& row : kModbusFunctions) {
     if (row.table == table && row.kind == kind) return &row;
@@ -75,9 +76,9 @@ struct ModbusReply {
   RefusedRequest refused{};  // the refused request and the reason, if the reply is an exception
 };
 
-/// Executes one request (function code and data) and makes its reply. A request that is answered with an
-/// exception does not change anything. The order of the checks is: function, quantity and byte count,
-/// addresses, values, and whether the device accepts the request now.
+/// Executes a request (function code and data) and creates the reply. A request whose answer is an exception
+/// does not change anything. The order of the checks is: function, quantity and byte count, addresses,
+/// values, and whether the device accepts the request now.
 ModbusReply serve(Device& device, std::span<const std::uint8_t> pdu);
 
 }  // namespace understudy::emulator::world

@@ -1,4 +1,4 @@
-// Lists the fields of stations' states (base/state/fields.h), in the order of the bytes.
+// The fields of the stations' states (base/state/fields.h), in the order of the saved bytes.
 #pragma once
 
 #include <functional>
@@ -71,7 +71,7 @@ struct StateOf<emulator::world::TextStation::State> {
 
 namespace understudy::emulator::world {
 
-/// Reads and checks a station's state. Calling the result puts it into effect.
+/// Reads and checks a station's state. Calling the returned function puts it into effect.
 template <class State>
 std::function<void()> read_into(State& state, StateReader& reader) {
   State restored = state;  // includes members that are not read, such as the framing rules

@@ -47,7 +47,7 @@ std::span<const std::uint8_t> bytes_of(std::string_view text) {
   return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
 }
 
-/// Returns a line as a frame. For the wire it includes the line end, for the device it does not.
+/// Returns a line as a frame. For the wire, it includes the line ending; for the device, it does not.
 ReceivedFrame frame_of(std::string_view text, std::uint64_t last_character, pty::SimTime now) {
   return {.bytes = bytes_of(text), .last_character = last_character, .is_for_device = true, .now = now};
 }
@@ -190,7 +190,7 @@ void TextStation::send(pty::SimTime now, pty::Transmitter& out) {
     } else {
       out.answer(bytes, first.last_character);
     }
-    // A long text takes time even if characters take none, because no host could read it that fast.
+    // A long text takes time even if characters do not, because no host could read it that fast.
     const bool takes_time = !is_instant_ || size == kPiece;
     if (takes_time) state_.free_at = now + settings().duration_of(static_cast<std::int64_t>(size));
     first.text.erase(0, size);

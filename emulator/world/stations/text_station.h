@@ -1,11 +1,12 @@
-// A device with a text protocol on its line. It joins characters into lines, passes them to the device, and
-// sends the device's text: answers to lines, or unasked text.
+// A device with a text protocol on its line. It joins characters into lines, passes the lines to the device,
+// and sends the device's text: answers to lines, or unsolicited text.
 //
-// The host's XOFF stops a device with flow control until its XON, or until the power fails: the device still
-// receives, but its answers wait, and its unasked text stays in the device. It sends no XOFF itself.
+// If a device has flow control, XOFF from the host stops it until XON, or until the power fails: the device
+// still receives, but its answers wait, and its unsolicited text stays in the device. The device itself does
+// not send XOFF.
 //
 // Long texts are sent in pieces, as fast as the wire carries them, so that the line's buffer does not
-// overflow. While the wire is busy with its text, unasked text stays in the device.
+// overflow. While the wire is busy with its text, unsolicited text stays in the device.
 #pragma once
 
 #include <optional>
@@ -20,11 +21,13 @@ namespace understudy::emulator::world {
 
 class TextStation final : public LineStation {
  public:
-  /// The number of characters passed to the line at once.
+  /// The number of characters that are passed to the line at once.
   static constexpr std::size_t kPiece = 1024;
-  /// Like kPiece, if the host may send XOFF: characters that are already on the line cannot be stopped.
+  /// Like kPiece, but for hosts that may send XOFF: characters that are already on the line cannot be
+  /// stopped.
   static constexpr std::size_t kPieceThatCanBeHeld = 1;
-  /// With this many characters waiting, the station accepts no more text from the device until some are sent.
+  /// If this many characters are waiting, the station accepts no more text from the device until some have
+  /// been sent.
   static constexpr std::size_t kMaxOutgoing = 64 * 1024;
 
   /// `is_instant` is true if characters take no time on the line. The device must have a text protocol.
@@ -45,12 +48,12 @@ class TextStation final : public LineStation {
   /// A received line that has not been executed yet. It is executed at the time of the event that completed
   /// it.
   struct Waiting {
-    bool has_received = false;  // false if the character is only echoed
+    bool has_received = false;  // false if the character must only be echoed
     pty::ReceivedText received;
     std::string echo{};
   };
   struct Outgoing {
-    std::uint64_t last_character = 0;  // of the line that this answers; 0: sent without a request
+    std::uint64_t last_character = 0;  // of the line that this text answers; 0: sent without a request
     std::string text{};
   };
   struct State {
@@ -59,8 +62,8 @@ class TextStation final : public LineStation {
     std::vector<Waiting> waiting{};  // at most one
     std::vector<FaultyWire::Late> late{};
     std::vector<Outgoing> outgoing{};
-    pty::SimTime free_at{0};                  // when the wire has finished carrying this station's data
-    std::optional<pty::SimTime> speaks_at{};  // when to take unasked text from the device
+    pty::SimTime free_at{0};                  // when the wire has transmitted all data of this station
+    std::optional<pty::SimTime> speaks_at{};  // when to read unsolicited text from the device
     bool is_held = false;                     // by the host's XOFF
   };
   const State& save() const { return state_; }

@@ -1,4 +1,4 @@
-// Traces record the visible values of a world at every tick at which any of them changed: as CSV for
+// Traces record the visible values of a world in every tick in which any of them changed: as CSV for
 // spreadsheets and `understudy plot`, or as VCD for GTKWave.
 #pragma once
 
@@ -13,7 +13,7 @@
 
 namespace understudy::emulator::world {
 
-/// One column of a trace.
+/// A column of a trace.
 struct TraceSignal {
   std::string name;  // as in probe_names.h: "feeder.A.position"
   enum class Kind : std::uint8_t { whole, real, bit } kind = Kind::whole;
@@ -26,8 +26,8 @@ class TraceFormat {
  public:
   virtual ~TraceFormat() = default;
   virtual void begin(const std::vector<TraceSignal>& signals) = 0;
-  /// Values are in the order of the signals. `is_new[i]` is true if the value has changed since the last
-  /// call; in the first call all are new.
+  /// The values are in the order of the signals. `is_new[i]` is true if the value has changed since the last
+  /// call. In the first call, all values are new.
   virtual void row(SimTime at, const std::vector<Number>& values, const std::vector<bool>& is_new) = 0;
   /// Called at the end. Nothing has changed since the last row.
   virtual void end(SimTime at, const std::vector<Number>& values) = 0;
@@ -36,12 +36,12 @@ class TraceFormat {
 std::unique_ptr<TraceFormat> csv_format(TakeLine take);
 std::unique_ptr<TraceFormat> vcd_format(TakeLine take);
 
-/// Returns the signals of each device: for each axis, its pulses, its planned speed, its machine's position
-/// and switches, and its duty; inputs and outputs, groups of them as words, and the registers that show its
-/// state. The signals in `also` (names of probe_names.h) come last. Throws NameError.
+/// Returns the signals of each device: for each axis, its pulses, its planned speed, the position and
+/// switches of its machine, and its duty cycle; inputs and outputs (groups as words), and the registers that
+/// show its state. The signals in `also` (names in probe_names.h) come last. Throws NameError.
 std::vector<TraceSignal> trace_signals(const World& world, const std::vector<std::string>& also);
 
-/// Watches the world as long as the object exists.
+/// Watches the world as long as this object exists.
 class Trace final : private TickWatcher {
  public:
   Trace(World& world, const std::vector<TraceSignal>& signals, std::unique_ptr<TraceFormat> format);

@@ -10,8 +10,8 @@ namespace understudy::emulator::world {
 
 namespace {
 
-/// Writes a row for each tick at which something changed, and one for the end. Each row has all values:
-/// `time_ms,feeder.A.pulses,...`.
+/// Writes a row for each tick in which something changed, and a row for the end. Each row contains all
+/// values: `time_ms,feeder.A.pulses,...`.
 class CsvTrace final : public TraceFormat {
  public:
   explicit CsvTrace(TakeLine take) : take_(std::move(take)) {}

@@ -1,4 +1,4 @@
-// Writes a trace to a file while a world runs. The format follows from the file's name.
+// Writes a trace to a file while a world runs. The name of the file determines the format.
 #pragma once
 
 #include <functional>
@@ -17,15 +17,15 @@ bool is_trace_name(const std::string& path);
 class TraceFile {
  public:
   /// Opens the file; its old content stays until begin(). The trace has the signals of trace_signals(). `log`
-  /// receives a line if the trace ends early. The world must outlive it. Throws NameError, before anything is
-  /// opened, or GrowingFileError.
+  /// receives a line if the trace ends early. The world must outlive this object. Throws NameError (before
+  /// anything is opened) or GrowingFileError.
   TraceFile(World& world, const std::string& path, const std::vector<std::string>& also,
             std::function<void(const std::string&)> log);
 
   /// Starts at this moment. Throws GrowingFileError.
   void begin();
   /// Writes the end and waits until everything is written. Returns why the file ended early, or an empty
-  /// string.
+  /// string if it did not.
   std::string finish();
 
  private:

@@ -1,4 +1,4 @@
-// Writes value change dumps (IEEE 1364), which GTKWave opens.
+// Writes value change dumps (IEEE 1364), which GTKWave can open.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -16,7 +16,7 @@ namespace understudy::emulator::world {
 
 namespace {
 
-/// Returns the identifiers of the format: '!', '"', and so on.
+/// Returns an identifier in the format: '!', '"', and so on.
 std::string code_of(std::size_t number) {
   constexpr std::size_t kFirst = 33;
   constexpr std::size_t kCount = 94;
@@ -36,7 +36,7 @@ std::string binary(std::int64_t value) {
   return text;
 }
 
-/// Rounds a value that was whole when the trace began but no longer is.
+/// Rounds a value that was an integer when the trace began but no longer is.
 std::int64_t nearest_whole(Number value) {
   constexpr double kMax = 9e15;
   return value.is_whole() ? value.whole() : std::llround(std::clamp(value.real(), -kMax, kMax));
@@ -85,8 +85,8 @@ class VcdTrace final : public TraceFormat {
   }
 
  private:
-  /// Splits "feeder.A.position" at its dots, but keeps a bit with its register: "feeder.STATUS.4". Replaces
-  /// blanks, which the format's names must not contain.
+  /// Splits "feeder.A.position" at its dots, but does not separate a bit from its register:
+  /// "feeder.STATUS.4". Replaces blanks, which are not allowed in names of the format.
   static std::vector<std::string> parts_of(const std::string& name) {
     std::vector<std::string> parts(1);
     for (const char c : name) {

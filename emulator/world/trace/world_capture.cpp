@@ -16,7 +16,7 @@ namespace understudy::emulator::world {
 
 namespace {
 
-/// Returns "pc", or "pc (mill PC)" with the port if the device has several.
+/// Returns "pc" or, if the device has several ports, "pc (mill PC)".
 std::string interface_name(const WorldLine& line) {
   std::string ports;
   for (const auto& station : line.stations) {

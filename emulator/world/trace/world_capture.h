@@ -1,4 +1,4 @@
-// Captures the traffic of all lines of a world in a file.
+// Captures the traffic on all lines of a world in a file.
 #pragma once
 
 #include <functional>
@@ -14,21 +14,21 @@ namespace understudy::emulator::world {
 
 class WorldCapture {
  public:
-  /// Opens the file as pty/capture_file.h does; its old content stays until begin(). The world must outlive
-  /// it. Throws pty::CaptureError.
+  /// Opens the file like pty/capture_file.h; its old content stays until begin(). The world must outlive this
+  /// object. Throws pty::CaptureError.
   WorldCapture(World& world, const std::string& path, std::function<void(const std::string&)> log);
-  ~WorldCapture();  // incomplete packets end here
+  ~WorldCapture();  // also ends incomplete packets
   WorldCapture(const WorldCapture&) = delete;
   WorldCapture& operator=(const WorldCapture&) = delete;
 
   /// Starts at this moment. Throws pty::CaptureError.
   void begin();
-  /// Waits until everything is written. Returns why the file ended early, or an empty string.
+  /// Waits until everything is written. Returns why the file ended early, or an empty string if it did not.
   std::string finish();
 
  private:
   World& world_;
-  bool names_ports_;  // a text log shows only the line's name, as one word
+  bool names_ports_;  // false for a text log, which shows only the name of the line, as one word
   pty::CaptureFile file_;
   std::vector<std::unique_ptr<pty::CaptureFrames>> lines_;
 };

@@ -12,13 +12,13 @@ namespace understudy::emulator::world {
 
 class BenchInventory final : public Inventory {
  public:
-  /// The bench must outlive it, and must not contain anything that the devices' models refuse.
+  /// The bench must outlive this object, and must not contain anything that the devices' models refuse.
   explicit BenchInventory(const Bench& bench);
 
   std::size_t line_count() const override { return bench_.lines.size(); }
   const std::string& line_name(std::size_t number) const override { return bench_.lines[number].name; }
   const KnownDevices& known() const override { return known_; }
-  /// Makes the device on first use.
+  /// Creates the device on first use.
   const Device& device(std::size_t number) const override;
   const PlantSetup& machine(std::size_t device, int axis) const override;
 

@@ -1,5 +1,5 @@
 // The readable side of a running world: its contents (inventory.h) and its current state. Observers (probes,
-// peaks) use only this interface; reading changes nothing.
+// peaks) use only this interface. Reading changes nothing.
 #pragma once
 
 #include <cstddef>
@@ -23,9 +23,9 @@ struct WorldLine {
   pty::Line line;
   const LineProtocol& protocol;
   LineStations stations;
-  pty::RtuFraming framing{};  // from the stations; the shortest silence if they differ
+  pty::RtuFraming framing{};  // from the stations; if they differ, with the shortest silence
 
-  /// These functions use `protocol`, and the stations that the request addresses now.
+  /// These functions use `protocol` and the stations that the request addresses now.
   std::string request_text(std::span<const std::uint8_t> request) const {
     return protocol.request_text(stations, device_addressed(request), request);
   }
@@ -51,7 +51,7 @@ class WorldView : public Inventory {
   virtual const WorldLine& line(std::size_t number) const = 0;
   virtual std::size_t device_count() const = 0;
   virtual const PlantAxis& plant(std::size_t device, int axis) const = 0;
-  /// Returns all pulses since the world began, in the motor's direction.
+  /// Returns the total of all pulses since the world began, in the motor's direction.
   virtual std::int64_t sent_pulses(std::size_t device, int axis) const = 0;
 
   const std::string& line_name(std::size_t number) const final { return line(number).line.name(); }
@@ -61,16 +61,17 @@ class WorldView : public Inventory {
   ~WorldView() = default;
 };
 
-/// Sees ticks when they are completely over. The watcher may act on the world like an outside event.
+/// Is notified of ticks when they have ended. The watcher may act on the world like an outside event.
 class TickWatcher {
  public:
   virtual ~TickWatcher() = default;
   virtual void on_tick(Tick tick) = 0;
-  /// Returns the first tick after `done` that it must see even if nothing happens: `done` + 1 if it needs
-  /// every tick, kNever if it does not need unchanged ticks. The first tick at which nothing happens is shown
-  /// to all observers.
+  /// Returns the first tick after `done` of which it must be notified even if nothing happens: `done` + 1 if
+  /// it needs every tick, kNever if it does not need unchanged ticks. All watchers are notified of the first
+  /// tick in which nothing happens.
   virtual Tick next_poll(Tick done) const { return done + 1; }
-  /// Called when nothing has changed since the last tick that it saw, and nothing will change up to `last`.
+  /// Called if nothing has changed since the last tick of which it was notified, and nothing will change up
+  /// to `last`.
   virtual void on_rest(Tick last) { on_tick(last); }
 };
 

@@ -55,7 +55,7 @@ inline constexpr auto kGeneralSpecialRows = section("D8 特殊暫存器的功用
     data(8099, R).means("firmware version", "監督程式版本").from_factory(100),
 });
 
-// D8x20 to D8x63 bear the names of the chip's registers: PRCMD, PRMV ... RCI.
+// D8x20 to D8x63 are named after the chip's registers: PRCMD, PRMV ... RCI.
 inline constexpr auto kAxisSpecialRows = section("D8x 特殊暫存器的功用(XYZU 軸用)", kMotion, {
     axis_data(8100).means("next step of the step program", "目前預備執行的程式序號").in("step").shows<read_pointer, Varies::in_ticks>(1).does<write_pointer>(1),
     axis_data(8101, 8116, 0).means("reserved", "保留"), axis_data(8101, 8116, 1).means("reserved", "保留"), axis_data(8101, 8116, 2).means("reserved", "保留"), axis_data(8101, 8116, 3).means("reserved", "保留"),

@@ -1,15 +1,15 @@
-// The numbers of the contacts and registers on which the controller depends, by the names that the manual
-// gives them. Rows and code use these names; a number that occurs only in its row needs no name.
+// The numbers of the contacts and registers that the controller itself uses, with their names in the manual.
+// Rows and code use these names; a number that occurs only in its row needs no name.
 #pragma once
 
 #include "interpreter/super_40nc/named.h"
 
 namespace understudy::emulator::models::super_40nc {
 
-/// Returns an axis's counterpart of a contact of axis X.
+/// Returns the contact of an axis that corresponds to a contact of axis X.
 constexpr int of_axis(int contact_of_x, int axis) { return contact_of_x + 100 * axis; }
 
-/// Special contacts M8, general.
+/// General special contacts M8.
 namespace m8 {
 inline constexpr int kStartOfC = 8000;
 inline constexpr int kSingleStep = interpreter::super_40nc::named::kSingleStep;
@@ -20,7 +20,7 @@ inline constexpr int kPause = 8006;
 inline constexpr int kFactoryParameters = 8008;
 }  // namespace m8
 
-/// Special contacts M8x of X; of_axis() for the others.
+/// Special contacts M8x of X. Use of_axis() for the other axes.
 namespace m8x {
 inline constexpr int kStart = 8100;
 inline constexpr int kSingleStep = 8101;
@@ -35,7 +35,7 @@ inline constexpr int kMpg10 = 8109;
 inline constexpr int kMpg100 = 8110;
 }  // namespace m8x
 
-/// Contacts M85x that the panel switches when it turns its pages; its keys are in panel/keys.h.
+/// Contacts M85x that the panel switches when its pages are turned. The panel's keys are in panel/keys.h.
 namespace m85 {
 inline constexpr int kParameterPageLeft = 8500;
 inline constexpr int kEditPageLeft = 8501;
@@ -43,7 +43,7 @@ inline constexpr int kLogoOver = 8502;
 inline constexpr int kEditPageEntered = 8507;
 }  // namespace m85
 
-/// Special registers D8, general.
+/// General special registers D8.
 namespace d8 {
 inline constexpr int kVout1 = 8003;
 inline constexpr int kVout2 = 8004;
@@ -73,7 +73,7 @@ inline constexpr int kRcmp5 = 8162;
 inline constexpr int kRci = 8163;
 }  // namespace d8x
 
-/// Parameters D9, general.
+/// General parameters D9.
 namespace d9 {
 inline constexpr int kStation = 9000;
 inline constexpr int kFileNumber = 9001;
@@ -106,7 +106,7 @@ inline constexpr int kPagesOfAFile = 9044;
 inline constexpr int kLinesOfAFile = 9045;
 }  // namespace d9
 
-/// Parameters D9x: added to D9x00. The comments are the numbers on the panel.
+/// Parameters D9x, as numbers added to D9x00. The comments are the numbers on the panel.
 namespace d9x {
 inline constexpr int kPulseMode = 0;  // X0
 inline constexpr int kOtStop = 1;

@@ -1,5 +1,4 @@
-// SUPER-40NC: the code looks up the options of choices.h with this. An unknown row or option is a compile
-// error.
+// SUPER-40NC: looks up the options of choices.h. An unknown row or option is a compile error.
 #pragma once
 
 #include <string_view>

@@ -1,4 +1,4 @@
-// SUPER-40NC: the meaning of each contact of the panel (M85x 人機對應接點的功用).
+// SUPER-40NC: the meanings of the panel's contacts (M85x 人機對應接點的功用).
 #pragma once
 
 #include "emulator/device/register_map/row.h"

@@ -1,6 +1,6 @@
-// SUPER-40NC: parameters D9, in the manual's order. If the manual prints no range or factory value for a D9,
-// the row has that of the panel's parameter (《基本參數說明》, 《X(Y/Z/U)軸參數說明》; parameters.h). No
-// value is refused: a value outside its range is stored, and limited where it is used.
+// SUPER-40NC: parameters D9, in the manual's order. If the manual does not print a range or factory value for
+// a D9, the row has those of the corresponding panel parameter (《基本參數說明》, 《X(Y/Z/U)軸參數說明》;
+// parameters.h). No value is refused: a value outside its range is stored, and limited when it is used.
 #pragma once
 
 #include "emulator/models/super_40nc/rows/names.h"
@@ -55,7 +55,7 @@ inline constexpr auto kGeneralParameterRows = section("D9 參數暫存器的功�
     data(9046, 9099).means("no function in the manual, plain storage").persists_at_once(),
 });
 
-/// The chip's counters, among which D9x27 to D9x30 and D9x55 choose.
+/// The chip's counters, from which D9x27 to D9x30 and D9x55 select.
 inline constexpr BitField kCounterBits[] = {bits(0, "C1"), bits(1, "C2"), bits(2, "C3"), bits(3, "C4")};
 inline constexpr BitField kCountersButTheFirst[] = {bits(0, "C2"), bits(1, "C3"), bits(2, "C4")};
 

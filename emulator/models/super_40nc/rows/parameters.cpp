@@ -1,5 +1,5 @@
-// The parameters by the numbers that the panel shows (《基本參數說明》, 《X(Y/Z/U)軸參數說明》). They are the
-// registers D9; ranges and factory values here are the panel's, even where the table of D9 differs.
+// The parameters by their numbers on the panel (《基本參數說明》, 《X(Y/Z/U)軸參數說明》). They are the
+// registers D9. The ranges and factory values here are those of the panel, even if the table of D9 differs.
 #include "emulator/models/super_40nc/rows/parameters.h"
 
 #include <array>
@@ -24,12 +24,12 @@ namespace {
 
 struct PanelParameter {
   int number;
-  int d9;  // for axes: added to D9x00; 0 for a base parameter without a printed register
+  int d9;  // for axes, the number added to D9x00; 0 for a base parameter without a printed register
   std::int32_t min;
   std::int32_t max;
   std::string_view unit;
   std::int32_t factory;           // as on the panel
-  std::string_view meaning = {};  // if it has no register; otherwise the register's
+  std::string_view meaning = {};  // if it has no register; otherwise, the register's meaning applies
 };
 
 // clang-format off
@@ -121,7 +121,8 @@ RegisterOfRow register_of(int d9) {
   throw std::logic_error("D" + std::to_string(d9) + " is not a register");
 }
 
-/// Returns the meaning of the parameter. The number identifies the axis, so the meaning does not name it.
+/// Returns the meaning of the parameter. The meaning does not contain the axis, because the number identifies
+/// it.
 std::string_view meaning_of_parameter(const RegisterOfRow& found) {
   const RegisterRow& row = found.row;
   return (row.meanings.empty() ? row.meaning : row.meanings[static_cast<std::size_t>(found.index)])
@@ -137,7 +138,7 @@ MadeParameters make_parameters() {
   constexpr std::size_t kCount = std::size(kBase) + kAxisCount * std::size(kOfAxis);
   constexpr std::size_t kTextsOfEach = 3;
   MadeParameters made;
-  made.texts.reserve(kTextsOfEach * kCount);  // rows point into it
+  made.texts.reserve(kTextsOfEach * kCount);  // rows point into this vector
   const auto keep = [&](std::string text) -> std::string_view {
     return made.texts.emplace_back(std::move(text));
   };

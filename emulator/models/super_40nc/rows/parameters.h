@@ -1,5 +1,4 @@
-// SUPER-40NC's parameters by the numbers that its panel shows: C0 to C26, X0 to X61, and likewise for Y, Z
-// and U.
+// SUPER-40NC's parameters by their numbers on the panel: C0 to C26, X0 to X61, and the same for Y, Z and U.
 #pragma once
 
 #include <span>

@@ -36,7 +36,7 @@ inline constexpr std::size_t kSlotCount = [] {
   return count;
 }();
 
-/// Calls visit(slot, row) for every register with a slot.
+/// Calls visit(slot, row) for every register that has a slot.
 template <typename Visit>
 void for_each_slot(Visit visit) {
   std::size_t next = 0;
@@ -45,12 +45,12 @@ void for_each_slot(Visit visit) {
   }
 }
 
-/// A register as the code uses it: where its value is stored, and its limits.
+/// A register from the view of the code: where its value is stored, and its limits.
 struct StoredRegister {
   std::size_t slot = 0;
   Value min = INT32_MIN;
   Value max = INT32_MAX;
-  bool on_axes = false;  // the first of one register for each axis, with adjacent values
+  bool on_axes = false;  // true: the first of several registers, one per axis, with adjacent values
 };
 
 consteval StoredRegister stored_at(Table table, int address) {
@@ -74,7 +74,7 @@ consteval StoredRegister stored_at(Table table, int address) {
   throw "no such register";
 }
 
-/// Where the special contacts M8000 to M8699 are stored; views of other state are not stored.
+/// Where the special contacts M8000 to M8699 are stored. Views of other state are not stored.
 inline constexpr int kFirstSpecialContact = m8::kStartOfC;
 inline constexpr std::size_t kNoSlot = SIZE_MAX;
 inline constexpr auto kSpecialContactSlots = [] {
@@ -96,11 +96,11 @@ constexpr std::size_t relay_slot(int special) {
   return kSpecialContactSlots[static_cast<std::size_t>(special - kFirstSpecialContact)];
 }
 
-/// Marks the contacts and registers that no table of the manual names.
+/// Marks the contacts and registers that are in none of the manual's tables.
 inline constexpr auto kIsUnlisted = [] {
   struct Range {
     Table table;
-    // `first` and `last` of axis X; `each`: distance to the next axis; 0: common to all axes
+    // `first` and `last` for axis X; `each`: distance to the next axis, or 0 if common to all axes
     int first, last, each;
   };
   constexpr Range kRanges[] = {
@@ -131,7 +131,7 @@ inline constexpr auto kIsUnlisted = [] {
   return unlisted;
 }();
 
-/// Find a register by number; an unknown number is a compile error.
+/// These find a register by its number. An unknown number is a compile error.
 consteval StoredRegister stored_d(int number) { return stored_at(Table::holding, data_address(number)); }
 /// Finds D9x00 + number, for the first axis.
 consteval StoredRegister stored_x(int number) { return stored_d(of_x(number)); }

@@ -21,7 +21,7 @@ struct MadeTerminals {
 MadeTerminals make_terminals() {
   using Kind = TerminalRow::Kind;
   MadeTerminals made;
-  made.names.reserve(kTerminalCount);  // rows point into it
+  made.names.reserve(kTerminalCount);  // rows point into this vector
   const auto add = [&](Kind kind, std::string name, std::int32_t highest = 1) {
     made.names.push_back(std::move(name));
     made.rows.push_back({.kind = kind, .name = made.names.back(), .lowest = 0, .highest = highest});

@@ -1,5 +1,5 @@
-// SUPER-40NC's terminals: X, Y, and the pins without a number. The names of these pins are ours, since the
-// wiring pictures are lost.
+// SUPER-40NC's terminals: X, Y, and the pins that have no number. The names of these pins are ours, because
+// our copy of the manual lacks the wiring diagrams.
 #pragma once
 
 #include <array>
@@ -25,8 +25,8 @@ inline constexpr int kAnalogInCount = 3;
 inline constexpr int kFirstAnalogOut = kFirstAnalogIn + kAnalogInCount;  // Vout1, Vout2
 inline constexpr int kAnalogOutCount = 2;
 inline constexpr int kRunSwitch = kFirstAnalogOut + kAnalogOutCount;  // PLC_RUN
-// Terminals that exist only if so chosen: those from DOG_X on (dog_inputs), from Vin1 on (analog_counts),
-// from SVON_X on (servo_on) and from CLR_X on (pins_fitted).
+// Terminals that exist only if choices enable them: those from DOG_X on (dog_inputs), from Vin1 on
+// (analog_counts), from SVON_X on (servo_on) and from CLR_X on (pins_fitted).
 inline constexpr int kFirstDogTerminal = kRunSwitch + 1;
 inline constexpr int kFirstVoltageIn = kFirstDogTerminal + kAxisCount;
 inline constexpr int kFirstServoTerminal = kFirstVoltageIn + kAnalogInCount;
@@ -35,7 +35,7 @@ enum ChipPin : int { kClearPin, kLatchPin, kErcPin, kChipPinsOfAxis };
 constexpr int chip_pin_of(int axis, ChipPin pin) { return kFirstChipPin + axis * kChipPinsOfAxis + pin; }
 inline constexpr int kTerminalCount = kFirstChipPin + kAxisCount * kChipPinsOfAxis;
 
-// Inputs by 《X33./X34.》; DOG fills the gap in that list.
+// Inputs according to 《X33./X34.》. DOG fills the gap in that list.
 constexpr int dog_input(int axis) { return 3 * axis; }
 constexpr int limit_plus_input(int axis) { return 3 * axis + 1; }
 constexpr int limit_minus_input(int axis) { return 3 * axis + 2; }
@@ -69,7 +69,7 @@ inline constexpr std::array<AxisRow, kAxisCount> kAxes = [] {
   return rows;
 }();
 
-/// Returns the rows of all terminals; their names are made once.
+/// Returns the rows of all terminals. Their names are created once.
 std::span<const TerminalRow> terminals();
 
 }  // namespace understudy::emulator::models::super_40nc
