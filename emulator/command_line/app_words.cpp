@@ -35,7 +35,7 @@ constexpr std::string_view kListed = " (--help lists them)";
 
 bool is_flag(std::string_view word) { return word.size() > 1 && word.starts_with("-"); }
 
-/// Returns the flag of that name as a command accepts it, including the flags of the commands above it.
+/// Returns the flag with that name if the command accepts it, including flags of the commands above it.
 const CLI::Option* flag_called(const CLI::App& command, const std::string& name) {
   for (const CLI::App* app = &command; app != nullptr; app = app->get_parent()) {
     if (const CLI::Option* const flag = app->get_option_no_throw(name)) return flag;
@@ -62,7 +62,7 @@ std::string nearest(const std::string& word, const std::vector<std::string>& kno
 
 /// The commands and flags on a command line, read in order.
 struct Walk {
-  const CLI::App* command;  // the last command named so far
+  const CLI::App* command;  // the most recent command
   std::string diagnostic;   // describes the first unknown word
 };
 
@@ -119,7 +119,7 @@ std::string first_left(const CLI::App& app, int argc, char** argv) {
   return left.empty() ? "" : left.front();
 }
 
-/// Returns the option's expected value as its help describes it, for use within a sentence.
+/// Returns the description of the option's expected value from its help, for use within a sentence.
 std::string expected_of(const CLI::App& command, const std::string& option) {
   const CLI::Option* const found = command.get_option_no_throw(option);
   std::string help = found == nullptr ? "" : found->get_description();
@@ -146,7 +146,7 @@ std::string diagnostic_about(const CLI::App& app, const CLI::ParseError& error, 
     if (what == "A subcommand") return where + "expected a command" + std::string(kListed);
     return where + what + " is missing; expected " + expected_of(*found.command, what);
   }
-  if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr)  // its name is the command's
+  if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr)  // the error's name is the command's name
     return where + quoted(first_left(app, argc, argv)) + " is one argument too many; expected nothing more";
   if (kind == "ExcludesError") {
     const std::string first = before(message, " excludes ");

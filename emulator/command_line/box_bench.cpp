@@ -48,7 +48,7 @@ std::size_t require_line(const world::Bench& bench, const std::string& command, 
   throw UsageError("--line: the bench has no line called " + quoted(name) + "; expected one of " + names);
 }
 
-/// Reads the devices' memories from the file of `--from`, or from the files that the bench names.
+/// Reads the devices' memories from the file of `--from`, or from the files in the bench.
 void read_memories(world::Bench& bench, std::size_t line, const std::string& from) {
   for (world::DeviceSetup& device : bench.devices) {
     if (device.nv_path.empty()) continue;
@@ -67,7 +67,8 @@ void read_memories(world::Bench& bench, std::size_t line, const std::string& fro
                    ", but the line has no device of that model; expected an image for a device on the line");
 }
 
-/// Returns the number of the only station on the line, or nothing if the line has several or a text protocol.
+/// Returns the number of the only station on the line, or nothing if the line has several stations or a text
+/// protocol.
 std::optional<std::uint8_t> only_station(const box::ReplayBench& bench) {
   std::optional<std::uint8_t> only;
   for (const auto& station : bench.line().stations) {

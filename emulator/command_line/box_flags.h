@@ -9,7 +9,7 @@
 
 namespace understudy::emulator::command_line {
 
-/// Adds the flags of a stage with real controllers, except its ports.
+/// Adds the flags of a stage with real controllers, except the flags for its ports.
 inline void add_stage_flags(CLI::App& command, OnArguments& on) {
   command.add_flag("--allow-writes", on.allow_writes,
                    "Also send requests that only change values [only reads are sent]");

@@ -1,4 +1,4 @@
-// Implements `calibrate`: finds the options of choices with which a bench replies as the captures show.
+// Implements `calibrate`: finds the options of choices with which a bench replies as in the captures.
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
@@ -74,7 +74,7 @@ box::EvidenceRow evidence_row(const BoxBench& box, const std::vector<box::Captur
   return row;
 }
 
-/// Returns the bench's version, or those that remain if a capture contradicts it: "1.40".
+/// Returns the bench's version, such as "1.40", or the remaining versions if a capture contradicts it.
 std::string firmware_text(const BoxBench& box, std::size_t number, const box::Calibration& found) {
   for (const box::RowFinding& finding : found.findings) {
     const bool is_it = finding.key.device == number && finding.key.row == box::ChoiceKey::kFirmware;
@@ -140,7 +140,7 @@ std::string tried_text(const box::CalibrateTally& tally, double seconds) {
   return text;
 }
 
-/// Returns the line of progress, which should fit into 80 columns.
+/// Returns the progress line, which should fit into 80 columns.
 std::string progress_of(const box::CalibrateTally& tally, std::size_t captures, std::size_t exchanges,
                         double seconds) {
   using enum box::CalibrateTally::Phase;
@@ -157,7 +157,7 @@ std::string progress_of(const box::CalibrateTally& tally, std::size_t captures, 
   return text;
 }
 
-/// Searches with a line of progress on a terminal. Ctrl-C ends the search.
+/// Searches, and shows a progress line on a terminal. Ctrl-C ends the search.
 box::Calibration calibrate_with_progress(const BoxBench& box, const std::vector<box::Capture>& captures) {
   std::size_t exchanges = 0;
   for (const box::Capture& capture : captures) exchanges += capture.exchanges.size();
@@ -169,7 +169,7 @@ box::Calibration calibrate_with_progress(const BoxBench& box, const std::vector<
                         {.is_over = is_interrupted, .tally = &tally});
 }
 
-/// Prints what was found until Ctrl-C.
+/// Prints the results up to Ctrl-C.
 void print_interruption(const BoxBench& box, const std::vector<box::Capture>& captures,
                         const box::Calibration& found, std::FILE* to) {
   std::fprintf(to, "interrupted after %zu hypotheses; ", found.tried);
@@ -188,7 +188,7 @@ void print_interruption(const BoxBench& box, const std::vector<box::Capture>& ca
                hypothesis_text(box.bench, found.explanations.front()).c_str());
 }
 
-/// Prints what the devices of a bench need, as parts of a bench file.
+/// Prints the measured choices of a bench's devices, in the format of a bench file.
 void print_measured_choices(const BoxBench& box, const box::Calibration& found) {
   std::size_t device = box.bench.devices.size();
   for (const bool is_firmware : {true, false}) {
@@ -218,11 +218,11 @@ int calibrate_bench(ModelList models, const CalibrateArguments& arguments) {
   ResultFile output("--output", require_output(claims, "--output", arguments.output), ContentKind::evidence);
   const BoxBench box = read_box_bench(models, "calibrate", arguments.compare);
   const std::vector<box::Capture> captures = read_captures(models, box, arguments.compare.captures);
-  // Settings that the model refuses are reported before any other option is tried.
+  // Settings that the model rejects are reported before any other option is tried.
   box::compare(box.bench, captures.front(), box.settings, box::Extent::to_difference);
   const box::Calibration found = calibrate_with_progress(box, captures);
   const box::EvidenceFile evidence = evidence_of(box, captures, arguments, found);
-  // An interruption must not replace what an earlier search has measured by nothing.
+  // An interrupted search without results must not overwrite the results of an earlier search.
   const bool is_written = output.is_wanted() && (!found.is_interrupted || !found.findings.empty());
   if (is_written) output.replace(box::evidence_text(evidence));
   if (found.is_interrupted) {

@@ -1,5 +1,5 @@
-// Implements `certificate`: states in a form that can be signed what was measured on a real controller, and
-// verifies such statements.
+// Implements `certificate`: creates signable statements about measurements on a real controller, and verifies
+// such statements.
 #include <cstddef>
 #include <cstdio>
 #include <filesystem>
@@ -33,8 +33,8 @@ constexpr std::string_view kEnding = ".json";
 // Exit codes of the shell script below.
 constexpr int kUnknownKey = 10;
 constexpr int kNoProgram = 127;
-/// The arguments are the file of signers, the signature and the signed file. A signature does not name its
-/// signer, so the signer is looked up by the key.
+/// The arguments are the file of signers, the signature and the signed file. A signature does not contain its
+/// signer's name, so the signer is found by the key.
 constexpr const char* kVerify =
     "verify() { command -v ssh-keygen >/dev/null || exit 127; "
     R"(who=$(ssh-keygen -Y find-principals -s "$2" -f "$1" 2>&1) || { echo "$who"; exit 10; }; )"
@@ -77,7 +77,7 @@ int make_certificate(ModelList models, const CertificateArguments& arguments) {
   return kExitWell;
 }
 
-/// Returns the path of the file: next to the certificate, or where it was when the evidence was made.
+/// Returns the path of the file: next to the certificate, or its path when the evidence was created.
 std::string find_certified(const std::string& certificate, const std::string& file) {
   const fs::path folder = fs::path(certificate).parent_path();
   std::error_code error;
@@ -86,8 +86,8 @@ std::string find_certified(const std::string& certificate, const std::string& fi
   return file;
 }
 
-/// Checks the files whose digests are in the certificate, and prints the results. Returns false if one has
-/// changed.
+/// Compares the files with their digests in the certificate, and prints the results. Returns false if a file
+/// has changed.
 bool verify_files(const std::vector<box::CertifiedFile>& files, const std::string& certificate) {
   bool is_good = true;
   for (const box::CertifiedFile& file : files) {

@@ -63,7 +63,7 @@ std::string_view kind_name(play::FileKind kind) {
   return "file";
 }
 
-/// Collects warnings. It lists a warning only once, even if several cases of a file share it.
+/// Collects warnings. A warning that several cases of a file share is listed only once.
 class Warnings {
  public:
   void add(const std::vector<FileError::Diagnostic>& odd, const std::string& file) {
@@ -161,7 +161,7 @@ CheckedFile checked_program(const Model& model, const std::string& file, const D
   return checked;
 }
 
-/// Checks one file after another. In the text format, prints the findings of each file immediately.
+/// Checks the files one after another. In text format, prints the findings of each file immediately.
 int check_all(const CheckArguments& arguments, std::span<const std::string_view> endings,
               const std::function<CheckedFile(const std::string&)>& check) {
   const auto format = finding_format_called(arguments.format);

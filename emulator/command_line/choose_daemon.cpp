@@ -26,7 +26,7 @@ constexpr std::chrono::milliseconds kPatience{2'000};  // the daemon may be stop
 
 struct Running {
   std::string socket;
-  std::string bench;  // empty: none
+  std::string bench;  // empty: no bench
   struct Port {
     std::string pty;
     std::string link;
@@ -35,7 +35,7 @@ struct Running {
   bool has_answered = false;
 };
 
-/// Returns the real file of a path, with all links followed.
+/// Returns the path with all links resolved.
 std::string place_of(const std::string& path) {
   std::error_code error;
   const fs::path place = fs::weakly_canonical(path, error);

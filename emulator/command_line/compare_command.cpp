@@ -34,13 +34,13 @@ namespace {
 
 using Report = nlohmann::ordered_json;
 
-/// The number of exchanges from the beginning of a capture that are held, to search for drift and options.
+/// The number of exchanges that are kept from the beginning of a capture, to search for drift and options.
 constexpr std::size_t kHeld = 100'000;
-/// With few samples, late replies in a growing capture are found soon.
+/// With few samples, late replies in a growing capture are detected soon.
 constexpr std::size_t kFollowedSamples = 20;
 
-/// Judges exchanges as they are read. It holds one exchange, because a reply may arrive until the next
-/// request.
+/// Judges exchanges while they are read. Keeps one exchange, because its reply may arrive at any time before
+/// the next request.
 class StreamedComparison {
  public:
   StreamedComparison(const BoxBench& box, const box::CompareSettings& settings, std::size_t delay_samples,
@@ -72,7 +72,7 @@ class StreamedComparison {
   std::optional<box::Exchange> waiting_;
 };
 
-/// Returns the manual's section on the first register of a request.
+/// Returns the manual's section about the first register of a request.
 std::string section_of(const BoxBench& box, const box::Exchange& exchange) {
   const auto asked = box::addressed_by(exchange.request);
   const box::ReplayBench replay(box.bench, box.settings.line);
@@ -95,7 +95,7 @@ Remedy remedy_of(const BoxBench& box, const box::Hypothesis& hypothesis) {
   return remedy;
 }
 
-/// Reads the capture once, and once more if the controller's clock turns out to be off.
+/// Reads the capture once, and a second time if the controller's clock turns out to be inaccurate.
 CaptureComparison compare_one(ModelList models, const BoxBench& box, const std::string& path) {
   box::CompareSettings settings = box.settings;
   box::Capture head{.path = path, .line = {}, .exchanges = {}};
@@ -135,7 +135,7 @@ CaptureComparison compare_one(ModelList models, const BoxBench& box, const std::
   return compared;
 }
 
-/// Reports each reply that is neither the same nor undecidable, as soon as the next request arrives.
+/// Reports each reply that is neither identical nor undecidable, as soon as the next request arrives.
 int follow_capture(const BoxBench& box, const CompareArguments& arguments) {
   if (arguments.captures.size() != 1)
     throw UsageError("compare: --follow follows one capture; expected one CAPTURE");

@@ -32,9 +32,10 @@ namespace {
 using box::Verdict;
 using Json = nlohmann::ordered_json;
 
-/// More differing replies would add nothing new, and a large capture may have any number of them.
+/// More differing replies would provide no new information, and a large capture may contain any number of
+/// them.
 constexpr std::size_t kMaxListedReplies = 10'000;
-/// The number of kinds of requests is limited, because lines of text can all be different.
+/// The number of kinds of requests is limited, because all text lines can be different.
 constexpr std::size_t kMaxRequestKinds = 4096;
 
 std::size_t index_of(Verdict verdict) { return static_cast<std::size_t>(verdict); }
@@ -61,11 +62,10 @@ std::string verdicts_text(const VerdictCounts& counts) {
   return text;
 }
 
-/// Returns the text of a request without the values that it writes, which is the same for all similar
-/// requests.
+/// Returns the text of a request without the written values. It is the same for all similar requests.
 std::string kind_of(const std::string& request) { return request.substr(0, request.find(" = ")); }
 
-/// When a choice was asked.
+/// When the question of a choice arose.
 enum class Asked : std::uint8_t { since_agreement, before, at_start };
 
 Asked when_asked(const box::AskedChoice& one) {
@@ -73,7 +73,8 @@ Asked when_asked(const box::AskedChoice& one) {
   return one.place != 0 ? Asked::before : Asked::at_start;
 }
 
-/// Returns the choices that were asked then, in lines; of those before the last agreement, only the latest.
+/// Returns lines with the choices whose question arose at that time. Of the choices before the last
+/// agreement, only the most recent are included.
 std::vector<std::string> asked_lines(const std::vector<box::AskedChoice>& asked, Asked when) {
   constexpr std::size_t kWidth = 96;
   constexpr std::size_t kLatest = 8;

@@ -1,4 +1,4 @@
-// Reports what `compare` has found in one capture, for people, programs and CI services.
+// Reports the results of `compare` for one capture, for people, programs and CI services.
 #pragma once
 
 #include <array>
@@ -31,8 +31,8 @@ struct JudgedReply {
 /// An option that removes the first difference.
 struct Remedy {
   std::string text;      // "feeder.exceptions: no_answer"
-  std::string section;   // the manual's section; empty: it is a version of the firmware
-  std::string question;  // the manual leaves it open
+  std::string section;   // the manual's section; empty: the option is a version of the firmware
+  std::string question;  // a question that the manual does not answer
 };
 
 class CaptureComparison {
@@ -55,9 +55,9 @@ class CaptureComparison {
   std::string page_sections() const;
 
   box::CaptureNotes notes{};
-  std::string first_section{};  // the manual's section on the register that differs first
+  std::string first_section{};  // the manual's section about the register of the first difference
   std::vector<Remedy> remedies{};
-  bool has_searched = true;  // remedies were searched for
+  bool has_searched = true;  // the program has searched for remedies
   double drift_ppm = 0;
   SimTime usual_delay{0};
 
@@ -66,7 +66,7 @@ class CaptureComparison {
   std::size_t exchanges_ = 0;
   VerdictCounts counts_{};
   std::map<std::string, VerdictCounts> by_kind_;  // counts for each kind of request
-  std::vector<JudgedReply> not_same_;             // only the first ones
+  std::vector<JudgedReply> not_same_;             // only the first of these replies
   std::size_t left_out_ = 0;
   std::optional<JudgedReply> first_;
   std::size_t first_number_ = 0;

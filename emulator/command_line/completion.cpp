@@ -17,7 +17,7 @@ namespace understudy::emulator::command_line {
 
 namespace {
 
-/// Calls `act` for each command, with the words that lead to it: "understudy ctl get".
+/// Calls `act` for each command with its path, such as "understudy ctl get".
 void for_each(const CommandWords& command, const std::string& path,
               const std::function<void(const std::string& path, const CommandWords& command)>& act) {
   act(path, command);
@@ -40,10 +40,10 @@ std::string fault_names() {
   return names;
 }
 
-/// Lists the words that a command accepts at one position of its operands.
+/// Lists the words that a command accepts as one of its operands.
 struct OperandWords {
   std::string path;
-  int place = 0;  // counts from 0
+  int place = 0;  // the operand's position, starting at 0
   std::string words;
 };
 std::vector<OperandWords> operand_words(ModelList models) {
@@ -58,7 +58,7 @@ std::vector<OperandWords> operand_words(ModelList models) {
           {"understudy ctl watch", 0, "time"}};
 }
 
-/// Returns the flags whose value is the next word: "--bench", "--control", ...
+/// Returns the flags whose value is a separate word: "--bench", "--control", ...
 std::vector<std::string> flags_with_value(const CommandWords& words) {
   std::set<std::string> flags;
   for_each(words, words.name, [&](const std::string&, const CommandWords& command) {
@@ -75,14 +75,14 @@ std::string joined(const std::vector<std::string>& words, const std::string& sep
   return text;
 }
 
-/// Puts a text in single quotes, which all three shells accept.
+/// Encloses a text in single quotes, which all three shells accept.
 std::string in_quotes(const std::string& text, std::string_view quote_in_quotes) {
   std::string quoted_text = "'";
   for (const char c : text) c == '\'' ? quoted_text += quote_in_quotes : quoted_text += c;
   return quoted_text + "'";
 }
 
-/// Returns every path except the program's own name, as the patterns of a `case`.
+/// Returns all paths except the program's own name, as the patterns of a `case`.
 std::string patterns_of(const CommandWords& words, const std::string& separator) {
   std::string patterns;
   for_each(words, words.name, [&](const std::string& path, const CommandWords&) {

@@ -1,4 +1,4 @@
-// Makes shell completion scripts for `understudy` from its flags.
+// Generates shell completion scripts for `understudy` from its flags.
 #pragma once
 
 #include <optional>
@@ -22,8 +22,8 @@ struct CommandWords {
   std::vector<CommandWords> commands;
 };
 
-/// Returns the script for "bash", "zsh" or "fish", or nothing for other shells. At positions without commands
-/// or flags it offers known words (models, faults), or files. After --model it offers the models.
+/// Returns the script for "bash", "zsh" or "fish", or nothing for other shells. Where no command or flag is
+/// expected, the script offers known words (models, faults) or files. After --model it offers the models.
 std::optional<std::string> completion_script(const CommandWords& words, const std::string& shell,
                                              ModelList models);
 

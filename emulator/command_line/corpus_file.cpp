@@ -27,9 +27,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Locks the folder of a file, so that hunts with the same corpus write it one after another. The file itself
-/// is replaced each time, so a lock on it would not last. Some network folders do not support locks; there
-/// the last writer wins.
+/// Locks the folder of a file, so that hunts with the same corpus write it one after another. A lock on the
+/// file itself would not last, because the file is replaced each time. Some network folders do not support
+/// locks; there, the last writer wins.
 Descriptor locked_folder_of(const std::string& path) {
   const fs::path folder = fs::absolute(path).parent_path();
   Descriptor descriptor(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
@@ -43,7 +43,7 @@ CorpusFile::CorpusFile(const std::string& path) : path_(path) {
   if (!path_.empty()) courses_ = read_new();
 }
 
-/// Returns the courses in the file that are not known yet.
+/// Returns the new courses in the file.
 std::vector<hunt::Course> CorpusFile::read_new() {
   std::vector<hunt::Course> courses;
   if (!fs::exists(path_)) return courses;

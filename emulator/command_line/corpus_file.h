@@ -1,5 +1,5 @@
-// The file of `hunt --corpus`: courses that reached something new, and the progress of the hunts with each
-// seed.
+// The file of `hunt --corpus`. It contains courses that reached something new, and the progress of the hunts
+// with each seed.
 #pragma once
 
 #include <cstdint>
@@ -16,16 +16,16 @@ namespace understudy::emulator::command_line {
 
 class CorpusFile {
  public:
-  /// Reads the file. Throws FileError if it is not a corpus. If the path is empty, there is no file.
+  /// Reads the file. An empty path means that there is no file. Throws FileError if the file is not a corpus.
   explicit CorpusFile(const std::string& path);
 
   bool is_wanted() const { return !path_.empty(); }
   std::uint64_t next_course(std::uint64_t seed) const;
   const std::vector<hunt::Course>& courses() const { return courses_; }
-  /// Writes the file as it was read, to find out whether it can be written. Throws GrowingFileError.
+  /// Writes the unchanged file, to find out whether it can be written. Throws GrowingFileError.
   void try_to_write();
-  /// Replaces the courses that were read with those of the hunt. Keeps lines that other hunts have written
-  /// meanwhile. Throws FileError if the file is no longer a corpus, and GrowingFileError.
+  /// Replaces the courses that were read with the courses of the hunt. Keeps lines that other hunts have
+  /// written meanwhile. Throws FileError if the file is no longer a corpus, and GrowingFileError.
   void write(const hunt::Hunt& hunt, std::uint64_t seed);
 
  private:
@@ -33,10 +33,10 @@ class CorpusFile {
   void write_with(const std::vector<hunt::Course>& own);
 
   std::string path_;
-  std::map<std::uint64_t, std::uint64_t> next_;  // the next course of each seed
+  std::map<std::uint64_t, std::uint64_t> next_;  // the number of the next course of each seed
   std::vector<hunt::Course> courses_;            // as read at the beginning
   std::set<std::string, std::less<>> known_;     // lines of courses that were read or written
-  std::vector<std::string> of_others_;           // lines that other hunts have written since
+  std::vector<std::string> of_others_;           // lines that other hunts have written meanwhile
 };
 
 }  // namespace understudy::emulator::command_line

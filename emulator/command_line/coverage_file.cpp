@@ -32,7 +32,7 @@ namespace {
 bool is_xml(const std::string& path) { return path.ends_with(".xml"); }
 bool is_page(const std::string& path) { return path.ends_with(".html"); }
 
-/// Returns the files that a scenario reads and that may be programs.
+/// Returns the files that a scenario reads and that may contain programs.
 std::vector<world::ProgramSource> sources_of(const play::Scenario& scenario) {
   std::vector<world::ProgramSource> sources;
   for (const FileClaim& claim : scenario.files) {
@@ -48,7 +48,7 @@ class CoverageObserver final : public play::Observer {
  public:
   CoverageObserver(world::World& world, std::vector<world::ProgramSource> sources, CoverageFile& file)
       : coverage_(world), sources_(std::move(sources)), file_(file) {}
-  void world_restored(std::size_t /*steps*/) override {}  // lines that have run stay covered
+  void world_restored(std::size_t /*steps*/) override {}  // executed lines stay covered
   void finish(play::ScenarioResult& /*result*/) override { file_.add(coverage_.report(sources_)); }
 
  private:
@@ -176,7 +176,7 @@ int add_coverage(const CoverageArguments& arguments) {
   FileClaims claims;
   for (const std::string& file : arguments.files) claims.add({file, "a file to add"});
   require_coverage(claims, wish, "--output");
-  std::vector<world::CoverageReport> reports;  // all are read before the output is opened
+  std::vector<world::CoverageReport> reports;  // all files are read before the output is opened
   for (const std::string& path : arguments.files) {
     const FileText text = read_text_file(path);
     if (!text) throw FileError(path + ": " + text.why + "; expected a tracefile (FILE.info)");

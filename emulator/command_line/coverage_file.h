@@ -1,4 +1,4 @@
-// The file of `--coverage`: which lines of the downloaded programs have run, summed over all runs.
+// The file of `--coverage`: which lines of the downloaded programs have run, as a total of all runs.
 #pragma once
 
 #include <cstdio>
@@ -21,7 +21,7 @@
 
 namespace understudy::emulator::command_line {
 
-/// The options of a command. An empty path: no file; no minimum: any coverage passes.
+/// The coverage options of a command. Empty path: no file; no minimum: any coverage passes.
 struct CoverageWish {
   std::string path;
   std::optional<double> min_percent;
@@ -30,8 +30,8 @@ struct CoverageWish {
   bool is_wanted() const { return !path.empty() || min_percent; }
 };
 
-/// Claims the file. Throws UsageError if the path's ending is not that of a coverage format, or if the
-/// minimum is not a percentage. `flag` is for messages.
+/// Claims the file. Throws UsageError if the path does not end like a coverage file, or if the minimum is not
+/// a percentage. `flag` is used in messages.
 void require_coverage(FileClaims& claims, const CoverageWish& wish, const std::string& flag = "--coverage");
 
 class CoverageFile {
@@ -40,14 +40,14 @@ class CoverageFile {
   explicit CoverageFile(const CoverageWish& wish, const char* flag = "--coverage");
 
   bool is_wanted() const { return wish_.is_wanted(); }
-  /// Empties the file, so that its old content is not mistaken for the result of a run that breaks off.
+  /// Empties the file, so that its old content is not mistaken for the result of an interrupted run.
   void empty() { file_.empty(); }
   /// Adds the counts of a run. May be called on any thread.
   void add(const world::CoverageReport& report);
   /// Returns an observer that adds the counts of a scenario's run.
   play::ObserverMaker observer(const play::Scenario& scenario);
-  /// Writes the file, and next to it the listings of programs that have no file of their own. Prints the
-  /// coverage. Returns false if it is below the minimum.
+  /// Writes the file, and next to it the listings of programs that have no file. Prints the coverage. Returns
+  /// false if it is below the minimum.
   bool write(std::FILE* out);
   /// Returns the content of the written file.
   const world::CoverageReport& report() const { return report_; }
@@ -72,20 +72,20 @@ struct RunCoverage {
   std::vector<play::ObserverMaker> observers(const play::Scenario& scenario);
   /// Returns false if the coverage is below the minimum.
   bool write(std::FILE* out);
-  /// Returns the coverage of programs as a section of a page; empty if it was not requested.
+  /// Returns the coverage of programs as a section of a page; empty if coverage was not requested.
   std::string section() const;
 
   CoverageFile programs;
   DeviceCoverageFile devices;
 };
-/// Returns the coverage that a run's flags ask for.
+/// Returns the coverage options in the flags of a run.
 CoverageWish coverage_of(const RunArguments& arguments);
 
 /// Both kinds of coverage of a served world.
 class ServedCoverage {
  public:
-  /// Counts from now on, unless the path is empty. The control socket counts separately, because its clients
-  /// may restart their count. Throws GrowingFileError.
+  /// Counts from now on, unless the path is empty. The control socket has a separate count, because its
+  /// clients may restart it. Throws GrowingFileError.
   ServedCoverage(const ServeArguments& arguments, serve::Daemon& daemon);
 
   /// Writes the requested files.
@@ -94,7 +94,7 @@ class ServedCoverage {
  private:
   CoverageFile file_;
   DeviceCoverageFile devices_file_;
-  std::unique_ptr<world::ProgramCoverage> counts_;  // null: it was not requested
+  std::unique_ptr<world::ProgramCoverage> counts_;  // null: coverage was not requested
   std::unique_ptr<world::ControllerCoverage> devices_;
 };
 

@@ -28,8 +28,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Returns "NAME=VALUE" operands as an object. A word that is not a number is passed on unchanged: the daemon
-/// decides what it accepts.
+/// Returns "NAME=VALUE" operands as an object. Words that are not numbers are passed on unchanged for the
+/// daemon to interpret.
 Json assignments(const ControlArguments& arguments) {
   Json values = Json::object();
   for (const std::string& operand : arguments.operands) {
@@ -54,8 +54,8 @@ Json assignments(const ControlArguments& arguments) {
   return values;
 }
 
-/// Returns "NAME=LEVEL" operands as an object. A level is a whole number, or a word or voltage that the
-/// daemon reads.
+/// Returns "NAME=LEVEL" operands as an object. A level is a whole number, or a word or voltage for the daemon
+/// to interpret.
 Json levels(const ControlArguments& arguments) {
   Json values = Json::object();
   for (const std::string& operand : arguments.operands) {
@@ -77,7 +77,7 @@ Json levels(const ControlArguments& arguments) {
   return values;
 }
 
-/// Returns a fault such as "drop feeder nth=3" as an object, with its kind and place first.
+/// Returns a fault such as "drop feeder nth=3" as an object that begins with its kind and place.
 Json fault_of(const std::vector<std::string>& operands) {
   Json fault{{operands[0], operands[1]}};
   for (std::size_t i = 2; i < operands.size(); ++i) {
@@ -113,8 +113,8 @@ std::string listing_of(const std::string& path) {
   if (!text) throw UsageError("ctl program: " + path + ": " + text.why + "; expected a listing");
   if (const std::string why = is_another_kind(*text, ContentKind::program); !why.empty())
     throw UsageError("ctl program: " + path + ": " + why);
-  // An empty text comes from a failed command in front of the pipe, or from an unsaved file. It must not
-  // remove the program.
+  // An empty text comes from a failed command before the pipe, or from an unsaved file. It must not delete
+  // the program.
   if (text->find_first_not_of(" \t\r\n") == std::string::npos)
     throw UsageError("ctl program: " + (path == "-" ? std::string("standard input is") : path + ": is") +
                      " empty; expected a listing");
@@ -217,7 +217,7 @@ struct VerbRow {
   void (*add_operands)(const ControlArguments& arguments, Json& message);
 };
 
-/// The verbs with their own operands. The others only display something, or take no operands.
+/// The verbs with their own operands. Other verbs only display something, or have no operands.
 constexpr VerbRow kVerbs[] = {
     {"get", add_names},          {"eval", add_expression},     {"set", add_assignments},
     {"input", add_levels},       {"turn", add_turns},          {"power", add_power},
@@ -265,7 +265,7 @@ void print_status(const Json& status) {
     for (const Json& station : line.at("stations")) {
       const std::string port =
           station.contains("port") ? " (" + station.at("port").get<std::string>() + ")" : "";
-      if (!station.contains("address")) {  // a text device: alone on its line, without exceptions
+      if (!station.contains("address")) {  // a device with a text protocol
         std::printf("  %s%s: %llu requests, %llu replies\n", station.at("device").get<std::string>().c_str(),
                     port.c_str(), station.at("requests").get<unsigned long long>(),
                     station.at("replies").get<unsigned long long>());
@@ -304,14 +304,14 @@ void print_status(const Json& status) {
 
 namespace {
 
-/// Returns the position of a mistake in the listing that could not be loaded.
+/// Returns the position of the mistake in a rejected listing.
 ProgramMistake mistake_of(const Json& reported, const std::string& before = "") {
   return {reported.at("line").get<int>(), reported.at("column").get<int>(),
           before + one_line(reported.at("what").get<std::string>())};
 }
 
-/// Returns why a request failed. For a refused program, the text begins with the file's name, where editors
-/// look for it.
+/// Returns the reason why a request failed. For a rejected program, the text begins with the file's name, as
+/// editors expect.
 std::string why_refused(const ControlArguments& arguments, const Json& reply) {
   if (!reply.contains("mistakes") || arguments.operands.size() != 2) return reply.at("error");
   std::vector<ProgramMistake> mistakes;
@@ -319,7 +319,7 @@ std::string why_refused(const ControlArguments& arguments, const Json& reply) {
   return in_file(mistakes.at(0), arguments.operands[1]) + and_more(mistakes);
 }
 
-/// Prints the warnings about a program that was accepted.
+/// Prints the warnings about an accepted program.
 void print_warnings(const ControlArguments& arguments, const Json& reply) {
   if (!reply.contains("warnings")) return;
   for (const Json& odd : reply.at("warnings")) {

@@ -36,7 +36,7 @@ world::CoverageReport report_of(const Json& reply) {
   return report;
 }
 
-/// Returns the lines that have not run: "5-6, 9".
+/// Returns the lines that have not run, such as "5-6, 9".
 std::string lines_left(const world::CoveredFile& file) {
   std::string text;
   int begin = 0;

@@ -1,4 +1,4 @@
-// Implements `ctl coverage`: which lines of the programs have run, as a list or as a file.
+// Implements `ctl coverage`: prints or writes which lines of the programs have run.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

@@ -164,7 +164,7 @@ void add_scope_words(const ControlArguments& arguments, Json& message) {
 
 void add_spans_words(const ControlArguments& arguments, Json& message) {
   constexpr const char* kExpected = "from=1s or to=2s";
-  constexpr int kFine = 4'000;  // dots: as few spans as possible are joined
+  constexpr int kFine = 4'000;  // dots: large enough to merge as few spans as possible
   message["dots"] = kFine;
   for (const std::string& word : arguments.operands) {
     const auto pair = keyed(word);
@@ -204,7 +204,7 @@ std::string event_text(const Json& event) {
     break;
   }
   if (event.contains("value")) {
-    const Json& value = event.at("value");  // in spans, it is a text
+    const Json& value = event.at("value");  // spans contain it as a text
     text += " = " + (value.is_string() ? value.get<std::string>() : value.dump());
   }
   if (event.contains("text")) text += ": " + event.at("text").get<std::string>();

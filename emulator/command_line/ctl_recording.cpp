@@ -28,7 +28,7 @@ void print_moment(const std::string& time, const std::string& text) {
   std::printf("%s\n", one_line(time + " " + text).c_str());
 }
 
-/// `seek 1.5s`, `seek frame`, `seek tick 5 back`
+/// Adds the place of `seek 1.5s`, `seek frame` or `seek tick 5 back`.
 void add_place(const ControlArguments& arguments, Json& message) {
   const std::vector<std::string>& words = arguments.operands;
   const auto refuse = [&](const std::string& why) {

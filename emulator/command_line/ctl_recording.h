@@ -1,4 +1,5 @@
-// Implements the `ctl` commands that only a recording has (docs/control.md): its marks, and moving in it.
+// Implements the `ctl` commands that are only for recordings (docs/control.md): they list marks, and move
+// through the recording.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -7,11 +8,11 @@
 
 namespace understudy::emulator::command_line {
 
-/// Adds the words of `timeline`, `seek` and `what-if` to the message, which already has its "do". Returns
-/// false if it is another message. Throws UsageError.
+/// Adds the words of `timeline`, `seek` and `what-if` to the message, which already contains "do". Returns
+/// false for other messages. Throws UsageError.
 bool add_recording_words(const ControlArguments& arguments, nlohmann::ordered_json& message);
 
-/// Prints the reply to `timeline`: the failure with what led there, then the marks.
+/// Prints the reply to `timeline`: the failure with the events before it, then the marks.
 void print_timeline(const nlohmann::ordered_json& reply);
 
 }  // namespace understudy::emulator::command_line

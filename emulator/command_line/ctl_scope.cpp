@@ -31,7 +31,7 @@ std::string names_of(const Json& scope) {
   return names;
 }
 
-/// Requests samples from number `from` on. Throws UsageError if there are none.
+/// Requests the samples starting at number `from`. Throws UsageError if there are no samples.
 Json samples_from(const std::string& socket, std::uint64_t from) {
   const Json message{{"do", "scope"}, {"from", from}};
   Json reply = Json::parse(serve::ask_control(socket, message.dump()));
@@ -82,7 +82,7 @@ void write_scope(const std::string& socket, const std::string& path) {
     }
     if (!reply.contains("next")) break;
     reply = samples_from(socket, reply.at("next").get<std::uint64_t>());
-    // A new shot belongs in another trace.
+    // A new shot has started, which does not belong in this trace.
     if (reply.at("scope").at("names") != scope.at("names")) break;
   }
   if (const std::string why = replace_text_file(path, text, ContentKind::trace); !why.empty())

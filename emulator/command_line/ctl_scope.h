@@ -7,11 +7,11 @@
 
 namespace understudy::emulator::command_line {
 
-/// Prints the `scope` of a reply. It may be null.
+/// Prints the `scope` object of a reply. It may be null.
 void print_scope(const nlohmann::ordered_json& scope);
 
-/// Writes the samples of the daemon at that socket to FILE.csv, for `plot`. Throws UsageError if there are
-/// none, and GrowingFileError if the file cannot be written.
+/// Writes the samples of the daemon at that socket to FILE.csv, for `plot`. Throws UsageError if there are no
+/// samples, and GrowingFileError if the file cannot be written.
 void write_scope(const std::string& socket, const std::string& path);
 
 }  // namespace understudy::emulator::command_line

@@ -1,4 +1,4 @@
-// Lists the `ctl` commands that are one message each, with their help.
+// Lists the `ctl` commands that consist of one message each, with their help texts.
 #pragma once
 
 #include <array>
@@ -8,7 +8,7 @@ namespace understudy::emulator::command_line {
 struct ControlWord {
   const char* verb;
   const char* help;
-  const char* operand = nullptr;  // null: the command has none
+  const char* operand = nullptr;  // null: the command has no operands
   const char* operand_help = nullptr;
 };
 

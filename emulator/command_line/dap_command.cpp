@@ -36,7 +36,7 @@ namespace understudy::emulator::command_line {
 
 namespace {
 
-constexpr std::size_t kMaxRefused = 8;  // at a time; further ones are closed without a reply
+constexpr std::size_t kMaxRefused = 8;  // at a time; further clients are disconnected without a reply
 constexpr int kLookMs = 500;            // between checks for signals and ended sessions
 
 std::string text_in(const dap::Json& arguments, const char* key) {
@@ -109,7 +109,7 @@ void forget_ended(std::vector<pid_t>& processes) {
   std::erase_if(processes, [](pid_t one) { return waitpid(one, nullptr, WNOHANG) == one; });
 }
 
-/// Serves one client after another. Clients that connect meanwhile are refused with a reason.
+/// Serves one client after another. Clients that connect in the meantime are refused with a reason.
 void serve_clients(const std::vector<Descriptor>& listeners) {
   std::vector<pid_t> serving;
   std::vector<pid_t> refusing;
@@ -138,9 +138,10 @@ void serve_clients(const std::vector<Descriptor>& listeners) {
   }
 }
 
-constexpr std::string_view kScheme = "rtu://";  // addresses need one; an editor's has none
+constexpr std::string_view kScheme = "rtu://";  // our addresses need one; an editor's addresses have none
 
-/// Throws pty::PortError, with the address as an editor gives it.
+/// Returns listening sockets for an address. Throws pty::PortError, with the address in the editor's
+/// notation.
 std::vector<Descriptor> listeners_at(world::TcpAddress& address) {
   try {
     return serve::listen_at(address);

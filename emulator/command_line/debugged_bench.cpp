@@ -31,10 +31,10 @@ namespace understudy::emulator::command_line {
 
 namespace {
 
-constexpr std::chrono::seconds kStarting{60};  // a recording is played before it is served
+constexpr std::chrono::seconds kStarting{60};  // a recording is replayed before it is served
 constexpr std::chrono::milliseconds kAgain{5};
 
-/// Returns the last line of a program's output, without its name.
+/// Returns the last line of a program's output, without the program's name.
 std::string last_line(std::string text) {
   while (text.ends_with('\n')) text.pop_back();
   const std::size_t before = text.rfind('\n');
@@ -60,7 +60,7 @@ QuietProgram::QuietProgram(std::vector<std::string> words)
   pointers.push_back(nullptr);
   pid_ = fork();
   if (pid_ != 0) return;
-  // The program ends with this process, however this process ends. Its output must not reach the client.
+  // The program ends with this process, however that ends. Its output must not reach the client.
   prctl(PR_SET_PDEATHSIG, SIGTERM);
   if (getppid() != parent) _exit(kExitWell);
   const int nothing = open("/dev/null", O_RDWR);
@@ -91,7 +91,7 @@ std::string QuietProgram::news() {
   for (ssize_t got = 0; (got = pread(messages_.get(), some.data(), some.size(), returned_bytes_)) > 0;
        returned_bytes_ += got)
     text.append(some.data(), static_cast<std::size_t>(got));
-  const std::size_t whole = text.rfind('\n') + 1;  // 0 if there is none
+  const std::size_t whole = text.rfind('\n') + 1;  // 0 if there is no complete line
   returned_bytes_ -= static_cast<off_t>(text.size() - whole);
   text.resize(whole);
   return text;

@@ -1,4 +1,4 @@
-// Starts the programs that a debug adapter needs.
+// Starts programs for a debug adapter.
 #pragma once
 
 #include <sys/types.h>
@@ -11,7 +11,7 @@
 
 namespace understudy::emulator::command_line {
 
-/// Runs this program in another process, which ends with this one and logs to a file in memory.
+/// Runs this program in another process that ends with this one and logs to a file in memory.
 class QuietProgram {
  public:
   explicit QuietProgram(std::vector<std::string> words);
@@ -20,7 +20,7 @@ class QuietProgram {
   QuietProgram& operator=(const QuietProgram&) = delete;
 
   void end();
-  /// Returns the exit code, or nothing while the program runs.
+  /// Returns the exit code, or nothing while the program is running.
   std::optional<int> ended();
   /// Returns the complete lines that the program has logged since the last call.
   std::string news();
@@ -31,7 +31,7 @@ class QuietProgram {
   pid_t pid_ = -1;
 };
 
-/// Runs a scenario to its end or its failure, and keeps the recording.
+/// Runs a scenario until it ends or fails, and keeps the recording.
 class RecordedScenario {
  public:
   /// Throws dap::RequestError if the scenario cannot be run, or has several cases.
@@ -51,8 +51,8 @@ class RecordedScenario {
 
 class DebuggedBench {
  public:
-  /// Runs `understudy WORDS --control SOCKET`, and returns when it answers on that socket. If it ends before,
-  /// throws dap::RequestError with its message.
+  /// Runs `understudy WORDS --control SOCKET`, and returns when the program answers on that socket. If it
+  /// ends before that, throws dap::RequestError with its message.
   DebuggedBench(std::vector<std::string> words, const std::string& socket);
 
   void end() { program_.end(); }

@@ -53,7 +53,7 @@ int list_models(ModelList models) {
 
 namespace {
 
-/// Returns a text such as "bench 3 (1.52), line.txt:12".
+/// Returns the source of a row, such as "bench 3 (1.52), line.txt:12".
 std::string source_of(const box::EvidenceFile& file, const box::EvidenceRow& row) {
   std::string text = (file.box.empty() ? file.path : file.box) + " (" + row.firmware + ")";
   if (!row.capture.empty()) text += ", " + row.capture + ":" + std::to_string(row.place);
@@ -61,8 +61,8 @@ std::string source_of(const box::EvidenceFile& file, const box::EvidenceRow& row
   return text;
 }
 
-/// Adds measurements to a sheet of choices: the option, and the controller that has it. If controllers
-/// differ, names all of them.
+/// Adds measurements to a sheet of choices: the option, and the controller on which it was measured. If
+/// controllers differ, lists all of them.
 void add_evidence(Sheet& sheet, const Model& model, const std::vector<box::EvidenceFile>& files) {
   const auto column = [&](const char* name) {
     return static_cast<std::size_t>(std::ranges::find(sheet.columns, name) - sheet.columns.begin());
@@ -104,7 +104,7 @@ std::vector<box::EvidenceFile> read_evidence(const Model& model, const DescribeA
   return files;
 }
 
-/// A Thing Model is one JSON object, in whatever format tables are wanted.
+/// A Thing Model is one JSON object, whatever format is chosen for tables.
 int print_thing(const Model& model, const DescribeArguments& arguments) {
   if (model.registers == nullptr)
     throw UsageError(quoted(arguments.model) +

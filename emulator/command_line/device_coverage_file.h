@@ -1,5 +1,5 @@
-// The file of `--device-coverage`: the parts of the devices that hosts, programs and faults have exercised in
-// all runs.
+// The file of `--device-coverage`: the parts of devices that were used in any run, by hosts, programs or
+// faults.
 #pragma once
 
 #include <cstdio>
@@ -13,7 +13,7 @@
 
 namespace understudy::emulator::command_line {
 
-/// Claims the file. Throws UsageError if the path's ending is not that of a coverage format.
+/// Claims the file. Throws UsageError if the path does not end like a coverage file.
 void require_device_coverage(FileClaims& claims, const std::string& path);
 
 class DeviceCoverageFile {
@@ -22,7 +22,7 @@ class DeviceCoverageFile {
   DeviceCoverageFile(const std::string& path, std::string version);
 
   bool is_wanted() const { return file_.is_wanted(); }
-  /// Empties the file, so that its old content is not mistaken for the result of a run that breaks off.
+  /// Empties the file, so that its old content is not mistaken for the result of an interrupted run.
   void empty() { file_.empty(); }
   /// Adds the counts of a run. May be called on any thread.
   void add(const world::TouchedReport& report);

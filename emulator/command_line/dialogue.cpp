@@ -95,7 +95,7 @@ class Dialogue {
 
  private:
   Json play(const Json& step) {
-    reading_.steps = 0;  // there is no limit on their number
+    reading_.steps = 0;  // their number is unlimited
     reading_.bytes = 0;
     play::Steps steps;
     try {

@@ -16,7 +16,7 @@
 
 namespace understudy::emulator::command_line {
 
-/// Ends when standard input ends, or at Ctrl-C.
+/// Returns when standard input ends, or at Ctrl-C.
 void hold_dialogue(ModelList models, const play::Scenario& scenario, play::Performance& performance);
 
 }  // namespace understudy::emulator::command_line

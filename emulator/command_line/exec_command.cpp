@@ -1,4 +1,4 @@
-// Implements `understudy exec`: serves a bench while a command that uses it runs.
+// Implements `understudy exec`: serves a bench while a command runs that uses it.
 #include <unistd.h>
 
 #include <array>
@@ -42,7 +42,7 @@ namespace {
 
 constexpr int kExitTimedOut = 124;  // as with timeout(1)
 
-/// Puts every file whose path was not given into a folder that no other process uses.
+/// Puts every file without a given path into a folder that no other process uses.
 void use_private_places(Serving& serving, const ExecArguments& arguments, serve::PrivateFolder& folder) {
   if (arguments.serve.links.empty() && arguments.serve.link.empty()) {
     for (world::LineSetup& line : serving.bench.lines) {
@@ -58,7 +58,7 @@ void require_host_time(const ExecArguments& arguments) {
     throw UsageError("--host-time: the host's waits determine how fast time passes; expected no --speed");
 }
 
-/// Prints the verdicts of the scenario and returns its exit code.
+/// Prints the verdicts of the scenario, and returns its exit code.
 int report(const CourseEnd& end, const play::Scenario& scenario) {
   if (end.was_given_up) {
     std::fprintf(stderr, "understudy: exec: %s: did not run to its end\n", one_line(scenario.file).c_str());
@@ -75,7 +75,7 @@ int report(const CourseEnd& end, const play::Scenario& scenario) {
   return code;
 }
 
-/// Returns the exit code. If it is not the command's own, reports the reason.
+/// Returns the exit code. Reports the reason if it is not the command's own exit code.
 int exit_code_of(const ExecArguments& arguments, const CourseEnd& end) {
   const std::string command = one_line(arguments.host.command[0]);
   if (end.has_timed_out) {
@@ -93,13 +93,13 @@ int exit_code_of(const ExecArguments& arguments, const CourseEnd& end) {
   return end.was_stopped ? static_cast<int>(kExitWell) : end.exit_code;
 }
 
-/// The end of a run.
+/// The result of a run.
 struct Outcome {
   int code = kExitNotStarted;
   bool was_interrupted = false;  // exec was told to end
 };
 
-/// Serves the bench until both the command and the scenario alongside it end.
+/// Serves the bench until both the command and the scenario beside it have ended.
 Outcome play(const ExecArguments& arguments, const Serving& serving, serve::PrivateFolder& folder,
              const std::optional<play::Scenario>& scenario, serve::ParentSignals& signals) {
   const CourseEnd end = run_course({.serving = serving,
@@ -113,7 +113,7 @@ Outcome play(const ExecArguments& arguments, const Serving& serving, serve::Priv
   return {.code = code != kExitWell ? code : scenario_code, .was_interrupted = end.was_interrupted};
 }
 
-/// Throws UsageError if the scenario and the bench would write the same file.
+/// Throws UsageError if the scenario and the bench would write to the same file.
 void require_apart(const play::Scenario& scenario, const ServeArguments& serve, FileClaims& files) {
   FileClaims of_scenario;
   of_scenario.add(scenario.files);
@@ -205,7 +205,7 @@ bool is_scenario(const std::string& path) {
   try {
     return play::kind_of_file(path) == play::FileKind::scenario;
   } catch (const FileError&) {
-    return false;  // reading it as a bench reports what is wrong
+    return false;  // the error is reported when the file is read as a bench
   }
 }
 

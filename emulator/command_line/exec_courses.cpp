@@ -15,7 +15,7 @@ namespace understudy::emulator::command_line {
 
 namespace {
 
-// A line begins with the time and the word of the event.
+// A line begins with the time and the kind of the event.
 constexpr std::size_t kLongestBegin = 48;
 
 /// Returns the event's simulated time. Every event begins with it.
@@ -44,7 +44,7 @@ std::string without_waits(std::string_view text) {
   return rest;
 }
 
-/// Returns the line that contains the place.
+/// Returns the line that contains the position.
 std::string_view line_at(std::string_view text, std::size_t place) {
   const std::size_t before = place == 0 ? std::string_view::npos : text.rfind('\n', place - 1);
   const std::size_t begin = before == std::string_view::npos ? 0 : before + 1;

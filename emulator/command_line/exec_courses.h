@@ -9,12 +9,12 @@ namespace understudy::emulator::command_line {
 
 class Courses {
  public:
-  /// Adds the recording of the next run. If this run's course is new, returns the first difference from the
-  /// first run, in one line; otherwise an empty text. The waits of the host's threads do not count, because
-  /// they do not affect the devices.
+  /// Adds the recording of the next run. If the course of this run is new, returns its first difference from
+  /// the first run as one line; otherwise returns an empty text. Waits of the host's threads are ignored,
+  /// because they do not affect the devices.
   std::string add(const std::string& recording);
   std::size_t count() const { return courses_.size(); }
-  /// Returns a line about all runs, such as "20 runs, all the same".
+  /// Returns a summary of all runs, such as "20 runs, all the same".
   std::string summary() const;
 
  private:
@@ -22,7 +22,7 @@ class Courses {
     std::string text;
     std::size_t runs = 0;
   };
-  std::vector<Course> courses_;  // in the order of their first occurrence
+  std::vector<Course> courses_;  // ordered by first occurrence
   std::size_t runs_ = 0;
 };
 

@@ -9,7 +9,7 @@
 
 namespace understudy::emulator::command_line {
 
-/// Returns a line for each event, or no lines if the recording cannot be replayed.
+/// Returns a line for each event. Returns no lines if the recording cannot be replayed.
 std::vector<std::string> events_before_failure(ModelList models, const std::string& recording);
 
 }  // namespace understudy::emulator::command_line

@@ -33,7 +33,7 @@ constexpr FindingRule kFindingRules[] = {
 
 std::string rule_of(const CheckedFile& checked) { return "understudy/" + checked.kind; }
 
-/// Returns the known parts of a position, such as "file:4:9: ".
+/// Returns the known parts of a position as text, such as "file:4:9: ".
 std::string place_text(const FilePlace& place) {
   std::string text = place.file + ":";
   if (place.line > 0) text += std::to_string(place.line) + ":";
@@ -41,7 +41,7 @@ std::string place_text(const FilePlace& place) {
   return text + " ";
 }
 
-/// Replaces each character that is not plain with a code such as %0A.
+/// Replaces each special character by a code such as %0A.
 template <class IsPlain>
 std::string in_codes(std::string_view text, IsPlain is_plain) {
   constexpr std::string_view kDigits = "0123456789ABCDEF";

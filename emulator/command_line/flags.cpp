@@ -1,5 +1,5 @@
 // Only this file and app_words.cpp are compiled with CLI11, because that is slow. Building all flags takes
-// longer than most commands run, so the parser leaves out commands whose names are not on the command line.
+// longer than running most commands, so the parser omits commands whose names are not on the command line.
 // For errors and help, it is built again with all commands.
 #include "emulator/command_line/flags.h"
 
@@ -69,7 +69,7 @@ struct CommandLine {
   std::function<int()> chosen;
 
   using Words = std::span<char* const>;
-  /// Leaves out all commands whose names are not in `among`, if it is given.
+  /// Omits all commands that are not in `among`, if it is given.
   CommandLine(ModelList known, std::optional<Words> among) : models(known), among_(among) {
     app.require_subcommand(1);
     app.set_version_flag("--version", UNDERSTUDY_VERSION);
@@ -83,7 +83,7 @@ struct CommandLine {
     void (CommandLine::*fill)(CLI::App& command);
   };
   static const std::vector<Command> kCommands;
-  static const std::array<Command, 3> kCommandsOfControl;  // the commands that are not a single message
+  static const std::array<Command, 3> kCommandsOfControl;  // the commands that are not single messages
   std::optional<Words> among_;
 
   bool may_be_meant(std::string_view name) const {
@@ -347,7 +347,7 @@ struct CommandLine {
   }
 };
 
-// This is the order of `--help`.
+// `--help` lists the commands in this order.
 const std::vector<CommandLine::Command> CommandLine::kCommands{
     {"models", "List the models", &CommandLine::add_models},
     {"describe", "Print a model's tables", &CommandLine::add_describe},
@@ -395,7 +395,7 @@ const std::array<CommandLine::Command, 3> CommandLine::kCommandsOfControl{{
 }  // namespace
 
 std::function<int()> parse_command_line(int argc, char** argv, ModelList models) {
-  // The words of a command that `exec` runs are never parsed as our flags.
+  // The words of a command that `exec` runs are never parsed as flags of this program.
   char** const end = argv + argc;
   char** own_end = end;
   std::vector<std::string> of_others;

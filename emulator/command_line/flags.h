@@ -7,8 +7,8 @@
 
 namespace understudy::emulator::command_line {
 
-/// Returns a function that runs the command and returns the exit code. Errors in the command line are
-/// printed to standard error.
+/// Returns a function that runs the command and returns the exit code. Prints errors in the command line to
+/// standard error.
 std::function<int()> parse_command_line(int argc, char** argv, ModelList models);
 
 }  // namespace understudy::emulator::command_line

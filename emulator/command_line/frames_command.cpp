@@ -1,4 +1,4 @@
-// Implements `understudy ctl frames`: prints the frames on the lines in words as they are transmitted.
+// Implements `understudy ctl frames`: describes the frames on the lines as they are transmitted.
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
@@ -29,7 +29,7 @@ std::string text_of(const Json& frame) {
   return one_line(text);
 }
 
-/// Prints the frames from number `since` on. Returns the number at which the next request continues.
+/// Prints the frames starting at number `since`. Returns the number at which the next request must start.
 std::uint64_t print_new(const Json& reply, std::uint64_t since, bool json) {
   const std::uint64_t next = reply.at("next").get<std::uint64_t>();
   const Json& frames = reply.at("frames");

@@ -38,14 +38,14 @@ namespace understudy::emulator::command_line {
 namespace {
 
 constexpr serve::WallTime kUsualTimeout = std::chrono::seconds(60);
-constexpr std::size_t kReportedLines = 5;     // the last lines of the command's output
-constexpr std::size_t kReportedBytes = 2000;  // the most bytes of these lines
+constexpr std::size_t kReportedLines = 5;     // of the command's output, from its end
+constexpr std::size_t kReportedBytes = 2000;  // the most bytes in these lines
 
 bool is_command_end(const play::Step& step) {
   return std::holds_alternative<play::CommandEndStep>(step.what);
 }
 
-/// Creates a file for output, and removes its name immediately.
+/// Creates a file for output, and unlinks it immediately.
 Descriptor make_output(const std::string& path) {
   Descriptor file(::open(path.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_APPEND | O_CLOEXEC, 0600));
   if (!file) throw std::system_error(errno, std::generic_category(), path);
@@ -75,8 +75,8 @@ std::vector<std::string> last_lines(int file) {
   return lines;
 }
 
-/// Returns a setup with links in the folder and memories that are never written. In real time, cases that
-/// run side by side cannot listen at the same addresses, so they do not listen at any.
+/// Returns a setup with links in the folder and memories that are never written. In real time, cases that run
+/// side by side cannot listen at the same addresses, so they do not listen at all.
 Serving serving_of(const play::Scenario& scenario, const RunArguments& arguments, const std::string& folder,
                    const std::string& recording) {
   Serving serving;
@@ -110,7 +110,7 @@ std::string shell_word(const std::string& word) {
   return quoted + "'";
 }
 
-/// Returns the command line that runs this case alone, with all flags that affect it.
+/// Returns the command line that runs only this case, with all flags that affect it.
 std::string rerun_of(const play::Scenario& scenario, const RunArguments& arguments) {
   const HostArguments& host = arguments.host;
   std::string text = "exec " + shell_word(scenario.file);
@@ -122,7 +122,7 @@ std::string rerun_of(const play::Scenario& scenario, const RunArguments& argumen
   return text + " -- " + shell_text(host.command);
 }
 
-/// Returns why the case has failed, apart from its steps; or an empty text.
+/// Returns the reason why the case has failed, apart from its steps, or an empty text.
 std::string why_failed(const CourseEnd& end, const play::Scenario& scenario, const std::string& timeout) {
   if (!end.was_reached) {
     return "the command did not load our library, so it ran in real time; expected a program that keeps "
@@ -193,7 +193,7 @@ std::vector<play::ScenarioResult> run_host_case(const play::Scenario& scenario, 
   result.rerun = rerun_of(scenario, arguments);
   const std::string why = why_failed(end, scenario, arguments.timeout);
   if (!why.empty() && (!result.failure || end.has_timed_out)) {
-    // A command that takes too long is a different kind of failure from one that fails by itself.
+    // A command that takes too long is a different kind of failure from a command that fails.
     result.verdict = play::ScenarioResult::Verdict::failed;
     if (!result.failure) result.failure = play::Failure{.at = result.simulated};
     result.failure->what = why;

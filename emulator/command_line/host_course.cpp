@@ -31,7 +31,7 @@ namespace understudy::emulator::command_line {
 
 namespace {
 
-/// Calls a function once, this long after its construction.
+/// Calls a function once after a given time.
 class Alarm {
  public:
   Alarm(serve::EventLoop& loop, serve::WallTime after, std::function<void()> call)
@@ -93,7 +93,7 @@ void share_ports(const serve::Daemon& daemon, gid_t group) {
   }
 }
 
-/// All members are used on the daemon's thread.
+/// All members are used only on the daemon's thread.
 class Course final : public play::HostCommand {
  public:
   Course(CourseSetup& setup, const ServeArguments& flags, serve::ParentSignals& signals)
@@ -164,7 +164,7 @@ class Course final : public play::HostCommand {
   void on_command_over() {
     is_command_over_ = true;
     const bool is_of_scenario = (setup_.output >= 0 || end_.was_stopped) && !end_.has_timed_out;
-    // No client is left that could advance the time. In host time, the scenario itself advances it.
+    // No client is left that could advance time. In host time, the scenario itself advances it.
     if ((child_->was_ended() && !is_of_scenario) || (daemon_.pacer().standing() && !host_time_))
       give_up_scenario();
     if (host_time_) host_time_->host_ended();

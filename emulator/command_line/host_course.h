@@ -1,5 +1,4 @@
-// Runs a command beside a bench. The bench is served until the command, and the scenario beside it, have
-// ended.
+// Runs a command beside a bench. The bench is served until both the command and the scenario have ended.
 #pragma once
 
 #include <memory>
@@ -23,29 +22,29 @@ struct CourseSetup {
   HostArguments host;
   std::string folder;  // a private folder
   std::optional<serve::WallTime> timeout{};
-  const play::Scenario* scenario = nullptr;  // null: none
-  play::RunOptions run{};                    // the scenario's options; its executor is replaced
-  /// A descriptor for the command's output. -1: it uses ours. Otherwise the command has no terminal either,
-  /// and it is ended when the scenario has failed or no longer needs it.
+  const play::Scenario* scenario = nullptr;  // null: no scenario
+  play::RunOptions run{};                    // the scenario's options, except its executor, which is replaced
+  /// A descriptor for the command's output. -1: the command uses our output. Otherwise the command has no
+  /// terminal, and is ended when the scenario has failed or no longer needs it.
   int output = -1;
 };
 
 struct CourseEnd {
   int exit_code = 0;  // the command's exit code
   bool has_timed_out = false;
-  bool was_reached = true;       // it loaded the library that --host-time needs
-  bool was_stopped = false;      // the scenario's step `host: stop` ended it; its exit code does not count
+  bool was_reached = true;       // the command loaded the library for --host-time
+  bool was_stopped = false;      // by the scenario's step `host: stop`; the exit code does not count
   bool was_interrupted = false;  // exec itself was told to end
   bool was_given_up = false;
   std::vector<play::ScenarioResult> results{};
 };
 
-/// Throws UsageError if the text is not a duration.
+/// Parses a duration in real time. Throws UsageError if the text is not a duration.
 std::optional<serve::WallTime> parse_timeout(const std::string& text);
 /// Throws UsageError if two lines would have the same environment variable.
 void require_variables(const world::Bench& bench);
 
-/// Runs a course. Environment variables tell the command its ports. Throws ChildError and the errors of
+/// Runs a course. The command gets its ports in environment variables. Throws ChildError and the errors of
 /// Daemon.
 CourseEnd run_course(CourseSetup setup, const ServeArguments& flags, serve::ParentSignals& signals);
 

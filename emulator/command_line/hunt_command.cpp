@@ -49,7 +49,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t kMaxGaps = 10;  // the most gaps in programs that are printed
 
-/// Returns the end of the hunt, or nothing if only the number of courses ends it.
+/// Returns the end of the hunt, or nothing if it is limited only by the number of courses.
 std::optional<Clock::time_point> end_of(const HuntArguments& arguments) {
   constexpr auto kUsual = std::chrono::seconds(60);
   if (arguments.time.empty()) {
@@ -104,7 +104,7 @@ RunArguments coverage_arguments(const HuntArguments& arguments) {
   return covered;
 }
 
-/// Prints the plan of the first case.
+/// Prints the hunt plan of the first case.
 int print_plan(const play::CaseList& cases, ModelList models, const HuntArguments& arguments) {
   std::optional<HuntHosts> hosts;
   if (!arguments.host.command.empty()) hosts.emplace(cases, models, arguments, 1);
@@ -120,7 +120,7 @@ std::string rate_text(double rate) {
   return figures;
 }
 
-/// Makes the progress line for a terminal.
+/// Formats the progress line for a terminal.
 class HuntProgress {
  public:
   explicit HuntProgress(const hunt::Hunt& hunt) : hunt_(hunt) {}
@@ -148,7 +148,7 @@ class HuntProgress {
   double last_ = 0;
 };
 
-/// Prints how much had been reached after 16, 48, 112 courses, and so on.
+/// Prints how much was reached after 16, 48, 112 courses, and so on.
 void print_curve(const hunt::Hunt& hunt) {
   const auto& curve = hunt.curve();
   if (curve.size() < 2 || curve.back().reached == hunt::Counts{}) return;
@@ -167,7 +167,7 @@ void print_curve(const hunt::Hunt& hunt) {
   }
 }
 
-/// Prints gaps. Below each group of gaps with the same nearest course, prints that course.
+/// Prints gaps in groups with the same nearest course, and that course below each group.
 void print_gaps(const std::vector<Gap>& gaps) {
   const std::size_t shown = std::min(gaps.size(), kMaxGaps);
   for (std::size_t i = 0; i < shown; ++i) {
@@ -178,8 +178,8 @@ void print_gaps(const std::vector<Gap>& gaps) {
   if (gaps.size() > shown) std::printf("  ... and %zu more\n", gaps.size() - shown);
 }
 
-/// Plays the courses that reached something new again, and prints the lines and parts that none of them
-/// reached, each with the nearest course.
+/// Plays the courses that reached something new again. Prints the lines and parts that none of them reached,
+/// with the nearest course to each.
 void print_unreached(hunt::Hunt& hunt, RunCoverage& coverage) {
   std::optional<CoverageFile> of_course;
   NearestCourses nearest;

@@ -59,8 +59,8 @@ void write_found(const std::string& path, const std::string& text, ContentKind k
   if (!why.empty()) throw GrowingFileError("--found: " + path + " cannot be written: " + why);
 }
 
-/// Returns the words of the command with each `${` escaped as `$${`, so that nothing in them is read as a
-/// parameter when the file is loaded.
+/// Returns the words of the command with each `${` escaped as `$${`, so that loading the file does not
+/// replace parameters in them.
 std::vector<std::string> without_parameters(std::vector<std::string> words) {
   for (std::string& word : words) {
     for (std::size_t at = 0; (at = word.find("${", at)) != std::string::npos; at += 3) word.insert(at, "$");
@@ -95,11 +95,11 @@ FoundFiles::FoundFiles(ModelList models, const HuntArguments& arguments, FileCla
 }
 
 FoundFiles::~FoundFiles() {
-  std::error_code ignored;  // a folder that is not empty stays
+  std::error_code ignored;  // a folder that is not empty is kept
   for (const std::string& folder : made_) fs::remove(folder, ignored);
 }
 
-/// Returns the path for a finding, without an ending: the first one that does not belong to an edited file.
+/// Returns the path for a finding, without an extension: the first path that is not used by an edited file.
 std::string FoundFiles::path_of(const hunt::Finding& finding) const {
   const std::string name = hunt::name_of_finding(*finding.course_player, finding.shrunk);
   const std::string first = (fs::path(arguments_.found) / name).generic_string();
@@ -138,7 +138,7 @@ void FoundFiles::require_writable(const std::string& path) const {
   if (!why.empty()) throw GrowingFileError("--found: " + path + " cannot be written: " + why);
 }
 
-/// Returns the shell command that runs the scenario of a finding together with the host's command.
+/// Returns a shell command that runs a finding's scenario together with the host's command.
 std::string FoundFiles::again_with(const hunt::Finding& finding, const std::string& path) const {
   const std::vector<std::string> words = without_parameters(finding.course_player->scenario().command);
   std::string text = "understudy exec " + shell_text({path + kScenarioEnding}) + " --host-time";
@@ -163,7 +163,7 @@ void FoundFiles::print(const hunt::Finding& finding, const std::string& path) co
   if (hosts_ != nullptr) std::printf("      %s\n", again_with(finding, path).c_str());
 }
 
-/// Plays the written file once more.
+/// Plays the written file again.
 void FoundFiles::play(const hunt::Finding& finding, const std::string& path) {
   const std::vector<play::ScenarioResult> results =
       hosts_ != nullptr ? hosts_->show(path, without_parameters(finding.course_player->scenario().command))

@@ -1,4 +1,4 @@
-// Writes the findings of `hunt`.
+// Writes the findings of `hunt` to files.
 #pragma once
 
 #include <string>
@@ -14,8 +14,8 @@ namespace understudy::emulator::command_line {
 
 class HuntHosts;  // hunt_hosts.h
 
-/// Plays the scenario of a finding as `run` or `exec` does, and writes its recording and its page next to it.
-/// `path` has no ending. Throws GrowingFileError.
+/// Plays the scenario of a finding like `run` or `exec`, and writes its recording and page next to it. `path`
+/// has no extension. Throws GrowingFileError.
 std::vector<play::ScenarioResult> show_finding(ModelList models, const HuntArguments& arguments,
                                                const std::string& path,
                                                const std::vector<std::string>& command);
@@ -23,16 +23,16 @@ std::vector<play::ScenarioResult> show_finding(ModelList models, const HuntArgum
 /// Stores findings in a folder, and reports them to the user.
 class FoundFiles {
  public:
-  /// Creates the folder, to find out whether it can be written. Throws UsageError and GrowingFileError.
+  /// Creates the folder, to check that it can be written. Throws UsageError and GrowingFileError.
   FoundFiles(ModelList models, const HuntArguments& arguments, FileClaims claims);
   /// Removes the folder if it was created but not used.
   ~FoundFiles();
   FoundFiles(const FoundFiles&) = delete;
   FoundFiles& operator=(const FoundFiles&) = delete;
 
-  /// From now on, `hosts` plays courses beside a command. It must outlive this object.
+  /// Plays courses with `hosts` beside a command from now on. `hosts` must outlive this object.
   void show_with(HuntHosts& hosts) { hosts_ = &hosts; }
-  /// Writes and prints a finding. Keeps a file that somebody has edited. Throws GrowingFileError.
+  /// Writes and prints a finding. Does not overwrite an edited file. Throws GrowingFileError.
   void add(const hunt::Finding& finding);
 
  private:
@@ -45,8 +45,8 @@ class FoundFiles {
   ModelList models_;
   const HuntArguments& arguments_;
   FileClaims claims_;
-  HuntHosts* hosts_ = nullptr;       // null: no command runs beside courses
-  std::vector<std::string> made_{};  // the folders that were created, the innermost first
+  HuntHosts* hosts_ = nullptr;       // null: courses are played without a command
+  std::vector<std::string> made_{};  // the folders that were created, innermost first
 };
 
 }  // namespace understudy::emulator::command_line

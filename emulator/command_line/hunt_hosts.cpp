@@ -56,9 +56,9 @@ std::vector<play::ScenarioResult> HuntHosts::play_here(const play::Scenario& sce
   return run_beside(scenario, options, arguments_, "");
 }
 
-/// Makes the work of a process. A question is a course, or the path of a scenario that should be shown.
+/// Creates the work of a process. A question is either a course, or the path of a scenario to show.
 Work HuntHosts::make_work() const {
-  setpgid(0, 0);  // Ctrl-C must not break a course: it ends the hunt, and that ends this process
+  setpgid(0, 0);  // Ctrl-C must not interrupt a course: it ends the hunt, which ends this process
   auto stages = std::make_shared<hunt::CoursePlayers>(
       cases_, models_,
       hunt::Player{.here = [this](const play::Scenario& scenario,

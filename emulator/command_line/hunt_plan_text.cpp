@@ -21,7 +21,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using When = play::Disturbance::When;
 
-constexpr std::uint64_t kMaxValues = 1000;  // the most values of a range that are listed
+constexpr std::uint64_t kMaxValues = 1000;  // the most listed values of a range
 
 /// Converts a step to JSON, and counts its drawn values.
 Json json_of(const world::YamlFields& node, std::size_t& drawn) {

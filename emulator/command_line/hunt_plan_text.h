@@ -1,4 +1,4 @@
-// Writes the `hunt` section of a scenario as JSON, for programs that draw disturbances themselves.
+// Writes the `hunt` section of a scenario as JSON, for programs that generate disturbances themselves.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace understudy::emulator::command_line {
 
-/// Returns a line of JSON. Each drawn value in a step is `{"drawn": N}`, the N-th of the entry's `values`: a
-/// list of texts. A range of more than a thousand values is thinned out to that many.
+/// Returns a line of JSON. Each drawn value in a step is `{"drawn": N}`, which is entry N of `values`, a list
+/// of texts. Longer ranges are reduced to a thousand values.
 std::string plan_text(const play::HuntPlan& plan, const hunt::Undisturbed& undisturbed);
 
 }  // namespace understudy::emulator::command_line

@@ -1,4 +1,4 @@
-// Implements `import`: makes a model file from a list of registers.
+// Implements `import`: creates a model file from a list of registers.
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -37,7 +37,8 @@ namespace fs = std::filesystem;
 
 bool is_of_name(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-'; }
 
-/// Returns the file's name without its ending, reduced to the characters that a model's name may have.
+/// Returns the file's name without its extension, reduced to the characters that are allowed in a model's
+/// name.
 std::string name_of_list(const std::string& path) {
   fs::path stem = fs::path(path).stem();
   if (stem.extension() == ".tm" || stem.extension() == ".td") stem = stem.stem();  // of Things
@@ -68,7 +69,7 @@ std::string counts_text(const std::vector<models::imported::ListedRegister>& reg
          ")";
 }
 
-/// Returns the settings for reading the list, as the flags give them.
+/// Returns the settings in the flags for reading the list.
 model_file::ListReading reading_of(const ImportArguments& arguments) {
   model_file::ListReading reading{.guesses_addresses = true, .encoding = arguments.encoding};
   const auto index_in = [](const auto& words, const std::string& flag, const std::string& word) {
@@ -97,8 +98,8 @@ model_file::ListReading reading_of(const ImportArguments& arguments) {
   return reading;
 }
 
-/// Reads the list. Throws FileError; a capture gets a line that names the command for it. A row of a list can
-/// look like one of a capture, so only text that is no list is judged as a capture.
+/// Reads the list. Throws FileError; for a capture, the error suggests the right command. A row of a list can
+/// look like a row of a capture, so only text that is not a list is checked for this.
 model_file::RegisterList read_list(const std::string& text, const std::string& path,
                                    const model_file::ListReading& reading) {
   try {
@@ -113,7 +114,7 @@ model_file::RegisterList read_list(const std::string& text, const std::string& p
   }
 }
 
-/// Returns what the flags say about the addresses of a Thing, which needs no others.
+/// Returns the address settings in the flags for a Thing, which has no other settings.
 std::optional<model_file::AddressReading> require_thing_flags(const ImportArguments& arguments,
                                                               const model_file::ListReading& reading) {
   const std::array<std::pair<const char*, const std::string*>, 3> others{

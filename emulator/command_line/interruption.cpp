@@ -20,7 +20,7 @@ void watch_for_interruption() {
   action.sa_handler = [](int) { is_over = 1; };
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
-  // The terminal is closed (nohup ignores that), or the reader of the output is gone.
+  // The terminal was closed (nohup ignores this signal), or the reader of the output has ended.
   for (const int number : {SIGHUP, SIGPIPE}) {
     struct sigaction before {};
     sigaction(number, nullptr, &before);

@@ -11,7 +11,7 @@
 
 namespace understudy::emulator::command_line {
 
-/// Prints a line without waiting for standard error. If the reader of standard error stops, lines are lost,
+/// Prints a line without waiting for standard error. If the reader of standard error stalls, lines are lost,
 /// but the devices are not delayed.
 void log_line(const std::string& text) {
   std::string line = "understudy: " + one_line(text) + "\n";

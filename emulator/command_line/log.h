@@ -4,7 +4,7 @@
 
 namespace understudy::emulator::command_line {
 
-/// Prints one line of the daemon's log to standard error.
+/// Prints one line to the daemon's log on standard error.
 void log_line(const std::string& text);
 
 }  // namespace understudy::emulator::command_line

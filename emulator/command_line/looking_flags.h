@@ -1,5 +1,5 @@
-// The flags of commands that show what has happened. Only flags.cpp includes this file, because CLI11 is slow
-// to compile.
+// The flags of commands that show past events. Only flags.cpp includes this file, because CLI11 is slow to
+// compile.
 #pragma once
 
 #include <CLI/CLI.hpp>

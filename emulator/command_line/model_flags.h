@@ -1,4 +1,4 @@
-// The flags of commands that show models, and check files and programs. Only flags.cpp includes this file,
+// The flags of commands that describe models, or check files and programs. Only flags.cpp includes this file,
 // because CLI11 is slow to compile.
 #pragma once
 

@@ -28,7 +28,7 @@ std::string trimmed(const std::string& text) {
   return begin == std::string::npos ? "" : text.substr(begin, text.find_last_not_of(" \t\r") + 1 - begin);
 }
 
-/// Describes the part of a line that was not reached; empty if all of it was reached.
+/// Describes the unreached part of a line; empty if all of it was reached.
 std::string gap_of(const world::CoveredLine& line) {
   if (line.runs == 0) return "never ran";
   if (!line.decides || (line.yes > 0 && line.no > 0)) return "";
@@ -50,7 +50,7 @@ void NearestCourses::add(const world::CoverageReport& report, std::size_t size, 
   }
 }
 
-/// Describes the course nearest to a line.
+/// Describes the nearest course to a line.
 std::string NearestCourses::nearest_to(const std::string& path, int line) const {
   const auto file = by_line_.find(path);
   if (file == by_line_.end()) return "";

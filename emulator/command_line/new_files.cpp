@@ -27,7 +27,7 @@ bool is_present(const std::string& path) {
   return std::filesystem::symlink_status(path, error).type() != std::filesystem::file_type::not_found;
 }
 
-/// Writes a new file. It never overwrites a file. Throws FileError if a file of that name exists.
+/// Writes a new file. Never overwrites a file. Throws FileError if a file with that name exists.
 void write_new(const NewFile& file) {
   const Descriptor made(::open(file.path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
   const auto refuse = [&file](int error) {
@@ -56,7 +56,7 @@ void require_new(const std::vector<NewFile>& files) {
   }
 }
 
-// If a file cannot be written, removes the files written before it.
+// If a file cannot be written, the previously written files are removed.
 void write_all(const std::vector<NewFile>& files) {
   std::size_t written = 0;
   try {

@@ -1,4 +1,4 @@
-// Writes the first files of a user.
+// Writes the first files for a new user.
 #pragma once
 
 #include <string>
@@ -11,10 +11,10 @@ struct NewFile {
   std::string text;
 };
 
-/// Throws FileError if any of the names exists already.
+/// Throws FileError if any of the files already exists.
 void require_new(const std::vector<NewFile>& files);
-/// Writes all files, or none. Never overwrites a file. Throws FileError if one exists already, and
-/// GrowingFileError if one cannot be written.
+/// Writes either all files or none. Never overwrites a file. Throws FileError if a file already exists, and
+/// GrowingFileError if a file cannot be written.
 void write_all(const std::vector<NewFile>& files);
 
 }  // namespace understudy::emulator::command_line

@@ -1,5 +1,4 @@
-// The stage of `run --on` and `probe`: real controllers at the ports that the user names, with the user's
-// permissions.
+// The stage of `run --on` and `probe`: real controllers at the given ports, with the user's permissions.
 #pragma once
 
 #include <memory>
@@ -15,10 +14,10 @@
 namespace understudy::emulator::command_line {
 
 bool is_on_box(const RunArguments& arguments);
-/// Throws UsageError for flags that need the inner state of a simulated controller, which a real one does not
-/// show.
+/// Throws UsageError for flags that require the internal state of a simulated controller, which a real
+/// controller does not show.
 void require_flags_of_boxes(const RunArguments& arguments);
-/// `lines` are those of all benches. Throws UsageError if a port is for another one.
+/// `lines` contains the lines of all benches. Throws UsageError if a port is for another line.
 void require_lines_of_benches(const OnArguments& arguments, const std::set<std::string>& lines);
 
 class OnBox {
@@ -26,10 +25,10 @@ class OnBox {
   /// From now on, Ctrl-C and SIGTERM stop the machine first. Throws UsageError and FileError.
   explicit OnBox(const OnArguments& arguments, bool puts_back = false);
 
-  /// Opens the ports of the scenario's lines. Throws UsageError if nothing answers, and WireError.
+  /// Opens the ports for the scenario's lines. Throws UsageError if nothing answers, and WireError.
   std::unique_ptr<play::Executor> make(const play::Scenario& scenario);
-  /// Returns an executor in which the bench's own devices answer as a controller would over its line. Nothing
-  /// is sent.
+  /// Returns an executor in which the bench's own devices answer in place of controllers. Nothing is
+  /// transmitted.
   std::unique_ptr<play::Executor> rehearse(const play::Scenario& scenario);
 
  private:

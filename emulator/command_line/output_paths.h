@@ -40,14 +40,14 @@ inline std::string require_trace(FileClaims& claims, const std::string& path,
   return require_output(claims, "--trace", path);
 }
 
-/// Returns the path for the older part of a large recording, next to the target file. The path is empty if
-/// there is no recording.
+/// Returns the path for the older part of a large recording, next to the recording itself. Empty if there is
+/// no recording.
 inline std::string older_part_of(const std::string& recording) {
   if (recording.empty()) return "";
   try {
     return output_target(recording) + world::kOlderPart;
   } catch (const OutputError&) {
-    return recording + world::kOlderPart;  // opening the file reports the error
+    return recording + world::kOlderPart;  // the error is reported when the file is opened
   }
 }
 

@@ -1,4 +1,4 @@
-// Implements `understudy page`, the live page of running benches, and `serve --page`.
+// Implements `understudy page`, which shows the live page of running benches, and `serve --page`.
 #include <sys/prctl.h>
 #include <sys/types.h>
 #include <unistd.h>
@@ -20,7 +20,7 @@ namespace understudy::emulator::command_line {
 
 namespace {
 
-/// Returns the control sockets of all running daemons, or the one that UNDERSTUDY_CONTROL names.
+/// Returns the control sockets of all running daemons, or the one in UNDERSTUDY_CONTROL.
 std::vector<std::string> daemons_to_show() {
   const char* const from_exec = std::getenv("UNDERSTUDY_CONTROL");
   if (from_exec != nullptr && *from_exec != '\0') return {from_exec};  // an empty variable counts as unset
@@ -68,7 +68,7 @@ void start_page_beside(const std::string& control, int port) {
   for (std::string& word : words) pointers.push_back(word.data());
   pointers.push_back(nullptr);
   if (fork() != 0) return;
-  // The page ends with this process, however it ends.
+  // The page ends with this process, however this process ends.
   prctl(PR_SET_PDEATHSIG, SIGTERM);
   if (getppid() != parent) _exit(0);
   sigset_t none;

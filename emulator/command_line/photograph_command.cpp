@@ -1,4 +1,4 @@
-// Implements `photograph`: reads everything readable from a real controller.
+// Implements `photograph`: reads all readable data of a real controller.
 #include <unistd.h>
 
 #include <chrono>
@@ -67,7 +67,8 @@ box::PhotoSettings settings_of(const Model& model, const PhotographArguments& ar
           .has_arrays = arguments.arrays};
 }
 
-/// Checks a path before the controller is asked, which takes seconds or minutes. It creates nothing.
+/// Checks a path without creating anything. This happens before the controller is read, which takes seconds
+/// or minutes.
 void require_writable(FileClaims& claims, const std::string& path, ContentKind kind) {
   require_output(claims, "--output", path);
   if (const std::string why = why_not_openable(path, kind); !why.empty())

@@ -26,7 +26,7 @@ namespace understudy::emulator::command_line {
 
 namespace {
 
-/// The working folder of gnuplot, which is removed with its contents.
+/// The working folder of gnuplot. It is removed with its contents.
 class WorkFolder {
  public:
   ~WorkFolder() {
@@ -72,7 +72,7 @@ int run_gnuplot(WorkFolder& folder) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
-/// Returns the most useful line of gnuplot's output: the last one with words in it.
+/// Returns the most useful line of gnuplot's output: the last line that contains words.
 std::string diagnostic_in(const std::string& text) {
   std::string diagnostic = "it printed nothing";
   for (const TextLine line : TextLines(text)) {

@@ -1,4 +1,4 @@
-// Implements `understudy poll`, a small Modbus master for quick checks. It uses libmodbus.
+// Implements `understudy poll`, a simple Modbus master for quick checks, with libmodbus.
 #include <errno.h>
 #include <modbus/modbus-rtu.h>
 #include <modbus/modbus.h>
@@ -43,14 +43,14 @@ struct Item {
   Type type = Type::u16;
   int count = 1;
   int bit = -1;
-  int bits = 1;  // number of bits from `bit` on
+  int bits = 1;  // the number of bits, starting at `bit`
   bool low_word_first = true;
   RegisterRow order{};     // a register with its own word order
-  bool is_a_half = false;  // the item is half of a 32-bit register
+  bool is_a_half = false;  // the item is one half of a 32-bit register
   bool write = false;
   std::int64_t value = 0;
-  std::string range{};                   // the register's range, if the table gives one
-  std::vector<std::uint16_t> message{};  // for a command: all words that it writes
+  std::string range{};                   // the register's range, if it is in the table
+  std::vector<std::uint16_t> message{};  // for a command: all words to write
 };
 
 std::int64_t require_integer(std::string_view text, const std::string& item) {
@@ -76,13 +76,13 @@ Table table_of_function(int function) {
   return kTables[static_cast<std::size_t>(function - 1)];
 }
 
-/// Returns the largest count that one request can read.
+/// Returns the largest count that fits in one request.
 int most_at_once(const Item& item) {
   if (item.type == Type::bit) return MODBUS_MAX_READ_BITS;
   return is_32_bit(item.type) ? MODBUS_MAX_READ_REGISTERS / 2 : MODBUS_MAX_READ_REGISTERS;
 }
 
-/// Reads the value to write. The item's type must be known.
+/// Parses the value to write. The item's type must be known.
 void read_value_of(Item& item, const std::string& text) {
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos) return;
@@ -124,7 +124,7 @@ Item parse_item(ModelList models, const std::string& text, const PollArguments& 
     item.address = static_cast<std::uint16_t>(address);
     item.type = is_table_of_bits(item.table) ? Type::bit : require_type(arguments.type);
     read_value_of(item, text);
-    // --function applies to reads only.
+    // --function applies only to reads.
     if (item.write && item.table == Table::input) item.table = Table::holding;
     if (colon != std::string::npos) {
       const std::int64_t count = require_integer(std::string_view(what).substr(colon + 1), text);
@@ -191,12 +191,12 @@ struct ContextDeleter {
 };
 using Context = std::unique_ptr<modbus_t, ContextDeleter>;
 
-// The rates that libmodbus can set. For any other, it silently uses 9600.
+// The rates that libmodbus supports. For any other rate, it silently uses 9600.
 constexpr std::array kBauds{110,     300,     600,     1200,    2400,    4800,    9600,    19200,
                             38400,   57600,   115200,  230400,  460800,  500000,  576000,  921600,
                             1000000, 1152000, 1500000, 2000000, 2500000, 3000000, 3500000, 4000000};
 
-/// Fills in settings of the line and the station that were not given, with the model's factory values.
+/// Replaces unset settings of the line and the station with the model's factory values.
 PollArguments with_line_of_model(ModelList models, PollArguments arguments) {
   pty::LineSettings line;
   int station = 1;
@@ -224,7 +224,7 @@ char letter_of_parity(const std::string& parity) {
   return parity == "even" ? 'E' : parity == "odd" ? 'O' : parity == "none" ? 'N' : '?';
 }
 
-/// Describes a failed request: which station, on which port, at which settings.
+/// Describes a failed request: its station, port and settings.
 std::string failure_text(const PollArguments& arguments, int error) {
   const std::string station = one_line(arguments.port) + ": station " + std::to_string(arguments.station);
   const std::string line = " at " + std::to_string(arguments.baud) + " 8" +
@@ -246,7 +246,7 @@ Context connect(const PollArguments& arguments) {
   if (!timeout || *timeout < std::chrono::microseconds(1) || *timeout > std::chrono::hours(1))
     throw UsageError("--timeout: " + quoted(arguments.timeout) +
                      " is not a duration; expected one such as 500ms");
-  // This is checked here, because libmodbus would print its own diagnostics.
+  // This is checked here, because libmodbus would print its own error messages.
   if (std::find(kBauds.begin(), kBauds.end(), arguments.baud) == kBauds.end()) {
     throw UsageError("--baud: " + std::to_string(arguments.baud) +
                      " is not a speed of a serial port; expected one such as 9600, 19200 or 115200");
@@ -346,7 +346,7 @@ bool answers_at_0(ModelList models, const PollArguments& arguments) {
   return numbers && numbers->lowest == 0;
 }
 
-/// Returns all items to poll. `low_word_first` is as in parse_item().
+/// Returns all items to poll. `low_word_first` has the same meaning as for parse_item().
 std::vector<Item> items_of(ModelList models, const PollArguments& arguments,
                            std::optional<bool> low_word_first) {
   std::vector<Item> items;
@@ -364,7 +364,7 @@ std::vector<Item> items_of(ModelList models, const PollArguments& arguments,
   return items;
 }
 
-/// Returns the word order that a flag gives, or nothing if none does.
+/// Returns the word order in the flags, or nothing if no flag sets it.
 std::optional<bool> given_word_order(const PollArguments& arguments) {
   if (arguments.word_order.empty()) return std::nullopt;
   if (arguments.word_order == "low") return true;
@@ -372,8 +372,8 @@ std::optional<bool> given_word_order(const PollArguments& arguments) {
   throw UsageError("--word-order: " + quoted(arguments.word_order) + " is unknown; expected low or high");
 }
 
-/// Returns the register that holds the device's word order. Returns nothing if no item depends on it, or if
-/// the order is known.
+/// Returns the register with the device's word order. Returns nothing if no item depends on the order, or if
+/// it is known.
 std::optional<Item> word_order_item(ModelList models, const PollArguments& arguments,
                                     const std::vector<Item>& items) {
   const bool matters = std::any_of(items.begin(), items.end(), [](const Item& item) {
@@ -390,7 +390,7 @@ std::optional<Item> word_order_item(ModelList models, const PollArguments& argum
 }
 
 void keep_silent(const PollArguments& arguments) {
-  // A device needs this silence to detect the end of an earlier frame.
+  // A device needs this pause to detect the end of an earlier frame.
   std::this_thread::sleep_for(play::silence_between_frames({.baud = arguments.baud}));
 }
 

@@ -1,4 +1,4 @@
-// Implements `probe`: plays the proofs of choices on a real controller, and reports which options it has.
+// Implements `probe`: plays the proofs of choices on a real controller, and reports its options.
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
@@ -45,17 +45,17 @@ using Verdict = play::ScenarioResult::Verdict;
 struct OptionCase {
   std::string option;
   std::shared_ptr<const play::Scenario> scenario;
-  std::optional<Verdict> verdict{};  // nothing: it was not played
-  std::string why{};                 // the case failed, or could not tell the options apart
+  std::optional<Verdict> verdict{};  // nothing: the case was not played
+  std::string why{};                 // the reason if the case failed, or could not distinguish the options
 };
 
 struct Probed {
   const ChoiceRow* choice = nullptr;
   std::vector<OptionCase> cases{};
-  bool is_unsteady = false;  // a case ended differently the second time, so nothing is excluded
+  bool is_unsteady = false;  // a case ended differently the second time, so no option is excluded
 
-  /// Returns the options whose cases passed. A case in which a step was skipped has not checked everything,
-  /// so it supports no option.
+  /// Returns the options whose cases passed. A case with a skipped step has not checked everything, so it
+  /// supports no option.
   std::vector<std::string> agreeing() const {
     std::vector<std::string> options;
     for (const OptionCase& one : cases)
@@ -76,7 +76,7 @@ struct Probed {
   std::size_t weight() const { return cases.size(); }
 };
 
-/// Returns the folder of the model's proofs: in the source tree, or the installed one.
+/// Returns the folder with the model's proofs, either in the source tree or installed.
 std::string folder_of_proofs(const Model& model, const std::string& given) {
   std::error_code error;
   const fs::path program = fs::read_symlink("/proc/self/exe", error).parent_path();
@@ -92,7 +92,7 @@ std::string folder_of_proofs(const Model& model, const std::string& given) {
                    places.front().string() + "; expected --proofs with the folder docs/fidelity/proofs");
 }
 
-/// Returns true if the proof needs only a controller with factory settings at its usual station number.
+/// Returns true if the proof requires only a controller with factory settings at its usual station number.
 bool is_of_bare_controller(const play::Scenario& scenario) {
   const world::Bench& bench = scenario.bench;
   if (bench.devices.size() != 1 || bench.lines.size() != 1) return false;
@@ -160,9 +160,9 @@ void play_case(OptionCase& one, OnBox& stage) {
   }
 }
 
-/// Returns true if the cases tell the options apart over a line: each passes with its own option, and fails
-/// with every other. Cases with moments that only simulated time can hit do not, and neither do cases with
-/// moments that an adapter's delay would move.
+/// Returns true if the cases distinguish the options over a line: each case passes with its own option, and
+/// fails with every other option. Cases that depend on exact moments of simulated time do not, nor do cases
+/// that depend on moments that an adapter would delay.
 bool are_telling(const Probed& probed, OnBox& stage) {
   constexpr SimTime kDelayOfAdapter = std::chrono::milliseconds(16);
   play::RunOptions options;
@@ -184,9 +184,8 @@ bool are_telling(const Probed& probed, OnBox& stage) {
   return true;
 }
 
-/// Plays each case, and then each once more, because a late reply or what an earlier case has left behind can
-/// change a verdict. If the result of a case is unknown, the other cases of its choice would not decide
-/// either.
+/// Plays each case, and then each again, because a late reply or the effect of an earlier case can change a
+/// verdict. If the result of a case is unknown, the choice's other cases would not decide either.
 void play_all(Probed& probed, OnBox& stage, int times) {
   if (!are_telling(probed, stage)) return;
   for (int time = 0; time < times; ++time) {

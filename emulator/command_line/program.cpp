@@ -32,8 +32,8 @@ int report(const std::exception& error, int code) {
   return code;
 }
 
-/// Opens closed standard descriptors. Otherwise a port could get such a number, and printed text would go to
-/// that port. Standard output is opened for reading, so that printing fails as it would on a closed one.
+/// Opens closed standard descriptors. Otherwise a port could get such a descriptor, and printed text would be
+/// sent to the port. Standard output is opened for reading, so that printing still fails.
 void open_standard_descriptors() {
   for (int descriptor = STDIN_FILENO; descriptor <= STDERR_FILENO; ++descriptor) {
     if (fcntl(descriptor, F_GETFD) >= 0) continue;
@@ -42,7 +42,7 @@ void open_standard_descriptors() {
 }
 
 /// Makes a write beyond the file size limit fail with an error, instead of a signal that ends the program. A
-/// handler is used because started programs do not inherit it; they would inherit "ignore".
+/// handler is used because child programs do not inherit it, whereas they would inherit an ignored signal.
 void survive_file_size_limits() {
   struct sigaction before = {};
   if (sigaction(SIGXFSZ, nullptr, &before) != 0 || before.sa_handler == SIG_IGN) return;
@@ -62,7 +62,7 @@ int run_program(int argc, char** argv, ModelList models) {
     if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
     return report(std::runtime_error("standard output cannot be written"), kExitNoResource);
   } catch (const world::BenchError& error) {
-    // The message begins with the file's name and line, where editors look for them.
+    // The message begins with the file's name and line, as editors expect.
     std::fprintf(stderr, "%s\n", error.what());
     return kExitBadInput;
   } catch (const UsageError& error) {

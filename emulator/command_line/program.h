@@ -1,4 +1,4 @@
-// Runs the program's command line, and reports errors in one line.
+// Runs the program's command line, and reports errors as single lines.
 #pragma once
 
 #include "emulator/device/model.h"

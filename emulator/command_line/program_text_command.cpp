@@ -17,7 +17,7 @@
 #include "emulator/device/program_error.h"
 #include "emulator/device/program_language.h"
 
-// Converts programs between text and numbers. Every model with a language supports text, and some support
+// Converts programs between text and numbers. All models with a language support text, and some also support
 // numbers.
 namespace understudy::emulator::command_line {
 
@@ -30,7 +30,7 @@ struct ProgramFile {
   std::string text;
 };
 
-/// Reads the program. If that fails, prints one line to standard error and returns nothing.
+/// Reads the program. On failure, prints one line to standard error and returns nothing.
 std::optional<ProgramFile> open_program(ModelList models, const ProgramTextArguments& arguments,
                                         const char* command) {
   const Model& model = require_model(models, arguments.model);

@@ -13,7 +13,7 @@ namespace understudy::emulator::command_line {
 
 /// Returns the model's language. Throws UsageError if the model's devices do not run programs.
 const ProgramLanguage& require_language(const Model& model);
-/// Returns the settings. Throws UsageError, or SettingError for settings that the model does not have.
+/// Returns the settings. Throws UsageError, or SettingError for settings that do not exist in the model.
 DeviceSettings program_settings(const Model& model, const ProgramTextArguments& arguments);
 /// Prints the mistakes to standard error, one per line.
 void print_mistakes(const std::vector<ProgramMistake>& mistakes, const std::string& file);

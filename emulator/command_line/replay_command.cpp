@@ -39,14 +39,14 @@ namespace understudy::emulator::command_line {
 
 namespace {
 
-/// Serves the recorded world with a stopped clock until a signal ends it. `at` is the time once the daemon
-/// runs.
+/// Serves the recorded world with a stopped clock until a signal arrives. `at` is the initial time of the
+/// daemon.
 int serve_from(const world::Replayed& replayed, const world::WorldState& state, SimTime at,
                const std::string& recording, const serve::DoorMaker& door, std::optional<int> page) {
   signal(SIGPIPE, SIG_IGN);  // the reader of the log may end first
   world::Bench bench = replayed.bench;
   for (world::LineSetup& line : bench.lines)
-    line.link.clear();  // another bench may use the link on this machine
+    line.link.clear();  // another bench on this machine may use the link
   serve::DaemonOptions options;
   options.speed.kind = serve::Speed::Kind::manual;
   options.strict_framing = replayed.header.options.strict_framing;
@@ -84,14 +84,14 @@ class EventCollector final : public world::ReplayWatcher {
   std::vector<world::RecordedEvent>& events_;
 };
 
-/// A recording that has been replayed as a whole, so its timeline can show any moment.
+/// A recording that has been replayed completely, so its timeline can show any moment.
 struct Travelled {
   world::Replayed replayed;
   serve::TimelineSetup setup;
 };
 
-/// Replays the whole recording. The timeline first shows `at`, or without it the failure or the beginning. A
-/// recording that differs is shown up to the difference.
+/// Replays the whole recording. The timeline first shows `at`, or else the failure or the beginning. If the
+/// replay differs from the recording, it is shown up to the difference.
 Travelled replay_whole(ModelList models, const ReplayArguments& arguments, std::optional<SimTime> at) {
   std::ifstream file(arguments.recording, std::ios::binary);
   std::optional<world::WorldState> begin;

@@ -43,7 +43,7 @@ ReplayLooks::ReplayLooks(world::World& world, const ReplayArguments& arguments, 
       throw UsageError(std::string("--trace-also: ") + error.what());
     }
   }
-  // All files are open before any is emptied.
+  // All files are opened before any of them is emptied.
   if (capture_) capture_->begin();
   if (trace_) trace_->begin();
   if (arguments.report.empty()) return;

@@ -1,4 +1,4 @@
-// Writes files about a recording while it is replayed: a trace, a capture, a page.
+// Writes files during the replay of a recording: a trace, a capture, a page.
 #pragma once
 
 #include <memory>
@@ -15,7 +15,7 @@
 
 namespace understudy::emulator::command_line {
 
-/// Checks that the files may be written, and claims them. Throws UsageError.
+/// Checks that the files can be written, and claims them. Throws UsageError.
 void require_looks(const ReplayArguments& arguments, FileClaims& claims);
 
 /// Writes the files during a replay. The constructor opens them, or throws an error with the reason.
@@ -40,7 +40,7 @@ class ReplayLooks final : public world::ReplayWatcher {
   std::unique_ptr<play::RunLogger> run_logger_;  // for the page
 };
 
-/// Returns the result for the page. `seen` has the content that ReplayLooks has collected.
+/// Returns the result for the page. `seen` contains the content collected by ReplayLooks.
 play::ScenarioResult result_of(const world::Replayed& replayed, const std::string& recording,
                                play::ScenarioResult seen);
 

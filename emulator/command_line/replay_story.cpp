@@ -26,7 +26,7 @@ namespace understudy::emulator::command_line {
 
 namespace {
 
-/// A daemon of the recording's bench without ports and without a control socket.
+/// A daemon for the recording's bench, without ports and without a control socket.
 class RecordingDaemon {
  public:
   explicit RecordingDaemon(serve::TimelineSetup setup)

@@ -12,7 +12,7 @@ void require_story_flags(const ReplayArguments& arguments);
 /// Returns true if the flags ask for a file.
 bool wants_story(const ReplayArguments& arguments);
 
-/// Writes the files of a recording that has been replayed.
+/// Writes the requested files about a replayed recording.
 void print_story(const ReplayArguments& arguments, serve::TimelineSetup setup);
 
 }  // namespace understudy::emulator::command_line

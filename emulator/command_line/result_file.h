@@ -1,4 +1,4 @@
-// Defines a file that a command writes at its end, such as results or a page.
+// A file that a command writes at its end, for example with results or a page.
 #pragma once
 
 #include <fcntl.h>
@@ -20,11 +20,11 @@
 
 namespace understudy::emulator::command_line {
 
-/// The path that means standard output.
+/// The path for standard output.
 inline constexpr std::string_view kStandardOutput = "-";
 
-/// Holds a result file. It is opened before anything runs, so a wrong path is reported at once. Paths that
-/// are not regular files, such as /dev/stdout, are allowed.
+/// A result file. It is opened before anything runs, so a wrong path is reported immediately. Paths that are
+/// not regular files, such as /dev/stdout, are allowed.
 class ResultFile {
  public:
   /// An empty path means that nothing is written.
@@ -56,7 +56,7 @@ class ResultFile {
     if (file_ && is_new_ && !has_begun_) ::unlink(file_->target().c_str());
   }
   bool is_wanted() const { return !path_.empty(); }
-  /// Empties the file, so that its old content is not mistaken for the result of a run that breaks off.
+  /// Empties the file, so that its old content is not mistaken for the result of an interrupted run.
   void empty() {
     if (file_) begin();
   }

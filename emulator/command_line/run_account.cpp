@@ -55,7 +55,7 @@ std::unique_ptr<play::ResultsFile> open_results(const std::string& path, bool co
 RunAccount::RunAccount(ModelList models, const RunArguments& arguments)
     : models_(models),
       arguments_(arguments),
-      // If results go to standard output, text for people goes to standard error.
+      // If results are printed to standard output, text for people is printed to standard error.
       out_(arguments.junit == kStandardOutput ? stderr : stdout) {
   for (const std::string& path : arguments.results) rows_.push_back(open_results(path, arguments.resume));
   if (!arguments.junit.empty()) junit_.emplace();
@@ -110,7 +110,7 @@ bool RunAccount::add_one(play::ScenarioResult& result, RunFiles& files, Progress
   }
   const play::FailureKinds::Kind* const kind = result.failure ? kinds_.add(result) : nullptr;
   const bool is_new = kind != nullptr && kind->count == 1;
-  const bool may_play_again = arguments_.on.on.empty();  // a real machine must not move only for a recording
+  const bool may_play_again = arguments_.on.on.empty();  // a real machine must not move just for a recording
   if (is_new && may_play_again && result.recording.empty() && !result.is_unreadable) {
     for (play::ScenarioResult& other : again()) {
       if (other.branch == result.branch) {

@@ -1,5 +1,5 @@
-// Reports the results of a run case by case: verdicts for the user, JUnit, result rows, a page. However many
-// cases there are, it keeps only counts and the first failure of each kind.
+// Reports the results of a run case by case: verdicts for the user, JUnit, result rows, a page. Keeps only
+// counts and the first failure of each kind, however many cases there are.
 #pragma once
 
 #include <cstdint>
@@ -29,20 +29,20 @@ class RunAccount {
   /// Opens the result files. Throws UsageError and GrowingFileError.
   RunAccount(ModelList models, const RunArguments& arguments);
 
-  /// Returns true if the result files already have this case. It then need not run again, and counts as left
-  /// out. May be called on any thread, one call at a time.
+  /// Returns true if the result files already contain this case. It need not run again, and counts as left
+  /// out. May be called on any thread, but not concurrently.
   bool was_played(const play::CaseKey& key);
   /// Empties the files, unless the run appends to them.
   void begin();
-  /// Takes the results of one case, in the order of the cases. `again` runs it once more, with a recorder;
-  /// `files` keeps its files.
+  /// Adds the results of one case. Call this in the order of the cases. `again` runs the case once more with
+  /// a recorder; `files` keeps its files.
   void add(std::vector<play::ScenarioResult> results, std::uint64_t made_of, RunFiles& files,
            ProgressLine& progress, const std::function<std::vector<play::ScenarioResult>()>& again);
   /// Prints and writes the final reports.
   void finish();
 
   play::Junit* junit() { return junit_ ? &*junit_ : nullptr; }
-  /// Returns the page. `programs` is its section on programs, or empty.
+  /// Returns the page. `programs` is the section about programs; it may be empty.
   std::string report(std::string_view programs) const;
   int exit_code() const;
 

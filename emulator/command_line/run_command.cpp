@@ -58,7 +58,7 @@ namespace understudy::emulator::command_line {
 
 namespace {
 
-/// Returns the scenario files of a path. For a folder, benches and included steps are left out.
+/// Returns the scenario files at a path. For a folder, omits benches and included steps.
 std::vector<std::string> files_of(const std::string& path) {
   if (!std::filesystem::is_directory(path)) return {path};
   std::vector<std::string> files = files_below(path, kYamlEndings);
@@ -73,17 +73,17 @@ struct SavedFile {
   std::string path;
   std::string scenario;  // the scenario's file
   std::size_t case_number;
-  bool is_varied;  // only a case list knows whether two such cases save the same file
+  bool is_varied;  // only a case list can determine whether two such cases save the same file
 };
 
 /// The results of checking all scenarios before any of them runs.
 struct Known {
-  FileClaims claims;      // the files that are read
-  std::size_t cases = 0;  // the cases that were checked
+  FileClaims claims;      // claims for the files that are read
+  std::size_t cases = 0;  // the number of checked cases
   std::vector<SavedFile> saved{};
-  std::set<std::string> warned{};  // warnings about programs, which are printed only once
+  std::set<std::string> warned{};  // warnings about programs, each of which is printed only once
   std::string trace_error{};       // why --trace-also does not fit one of the scenarios; empty: it fits
-  std::set<std::string> lines{};   // of all benches
+  std::set<std::string> lines{};   // the lines of all benches
 };
 
 void warn(const play::Scenario& scenario, Known& known) {
@@ -133,7 +133,7 @@ bool add_all(play::CaseList& case_list, const RunArguments& arguments, Known& kn
   for (const std::string& file : files) {
     attempt([&] {
       case_list.add(file, [&](const play::Scenario& scenario) {
-        known.claims.add(scenario.files);  // the files of unselected scenarios count too
+        known.claims.add(scenario.files);  // the files of unselected scenarios also count
         note_saved(scenario, arguments, known);
       });
     });
@@ -155,11 +155,11 @@ RunFolders folders_of(const RunArguments& arguments) {
           .trace_also = arguments.trace_also};
 }
 
-/// Throws UsageError if a written file is also read, or is written twice, or if a flag names what no scenario
-/// has. The order of scenarios does not matter.
+/// Throws UsageError if an output file is also read or is written twice, or if a name in a flag is in no
+/// scenario. The order of scenarios does not matter.
 void require_fitting_flags(Known& known, const RunArguments& arguments) {
   FileClaims& claims = known.claims;
-  std::vector<FileClaim> of_this;  // one case may save a file twice
+  std::vector<FileClaim> of_this;  // the same case may save a file twice
   for (std::size_t i = 0; i < known.saved.size(); ++i) {
     const SavedFile& saved = known.saved[i];
     if (const std::string why = claims.objection_to(saved.path); !why.empty()) {
@@ -179,7 +179,7 @@ void require_fitting_flags(Known& known, const RunArguments& arguments) {
   require_lines_of_benches(arguments.on, known.lines);
 }
 
-/// Returns how recordings of failures are made.
+/// Returns how failures are recorded.
 Recorded recorded_by(const RunArguments& arguments) {
   if (has_command(arguments) || is_on_box(arguments)) return Recorded::apart;
   return arguments.real_time ? Recorded::always : Recorded::again;
@@ -210,8 +210,8 @@ class CaseRunner {
     try {
       const auto scenario = reader.read(which_case);
       play::RunOptions options = options_;
-      // For varied cases, the run log is made only when a case is shown, because there may be any number of
-      // them.
+      // For varied cases, the run log is created only when a case is shown, because there may be any number
+      // of cases.
       if (is_on_box(arguments_)) return play_on_box(*scenario);
       if (!arguments_.report.empty() && !scenario->which.is_varied) options.observers.push_back(run_logger());
       add(options, files_.observers(*scenario));
@@ -224,7 +224,7 @@ class CaseRunner {
     }
   }
 
-  /// Runs the case again with a recorder, and with a run log if there is a page. In virtual time the result
+  /// Runs the case again with a recorder, and with a run log if there is a page. In virtual time, the result
   /// is the same.
   std::vector<play::ScenarioResult> play_again(play::CaseReader& reader,
                                                const play::CaseId& which_case) const {
@@ -236,7 +236,7 @@ class CaseRunner {
   }
 
  private:
-  /// A port that is lost makes the case fail. A port that cannot be opened at all ends the run.
+  /// If a port is lost, the case fails. If a port cannot be opened, the run ends.
   std::vector<play::ScenarioResult> play_on_box(const play::Scenario& scenario) const {
     if (arguments_.on.plan)
       std::printf("%s: %s\n", one_line(scenario.file).c_str(), one_line(scenario.name).c_str());
@@ -261,7 +261,7 @@ class CaseRunner {
     }
   }
 
-  /// Adds the seed of `--seed` to the words that run a case alone.
+  /// Adds the seed of `--seed` to the command line for running a case alone.
   std::vector<play::ScenarioResult> with_rerun(std::vector<play::ScenarioResult> results) const {
     for (play::ScenarioResult& result : results) {
       if (!arguments_.seed || !result.which.is_varied) continue;
@@ -290,7 +290,7 @@ class CaseRunner {
       result.which = reader.case_of(which_case);
       result.name = reader.name_of(which_case);
     } catch (const FileError&) {
-      // The result has the file's name.
+      // The result contains the file's name.
     }
     play::Failure failure{.what = one_line(error.diagnostics().front().text)};
     for (std::size_t i = 1; i < error.diagnostics().size(); ++i) {
@@ -308,7 +308,7 @@ class CaseRunner {
   play::RunOptions options_{};
 };
 
-/// Makes a function for each thread that runs cases. A case with a command runs in a separate process.
+/// Creates a function for each thread that runs cases. A case with a command runs in a separate process.
 class Players {
  public:
   Players(const CaseRunner& runner, const play::CaseList& case_list, bool have_processes, int threads)
@@ -354,7 +354,7 @@ class Players {
   std::optional<WorkerProcesses> workers_;
 };
 
-/// Returns false if the run was interrupted: a stage with real controllers stops their machine, and ends.
+/// Returns false if the run was interrupted. A stage with real controllers then stops their machine and ends.
 bool play_all(const play::NextCase& next, Players& players, int threads,
               const std::function<void(const play::CaseId&, std::vector<play::ScenarioResult>)>& add) {
   try {
@@ -366,7 +366,7 @@ bool play_all(const play::NextCase& next, Players& players, int threads,
   }
 }
 
-/// Returns the exit code, which is also 1 if too little of the programs was covered.
+/// Returns the exit code, which is also 1 if the coverage of programs is too low.
 int exit_code_of(const RunAccount& account, bool was_interrupted, bool is_enough) {
   const int code = was_interrupted ? static_cast<int>(kExitFailed) : account.exit_code();
   return code == kExitWell && !is_enough ? static_cast<int>(kExitFailed) : code;

@@ -49,14 +49,14 @@ namespace fs = std::filesystem;
 constexpr std::size_t kLongestName = 100;    // bytes
 constexpr std::size_t kPieceOfCopy = 65536;  // bytes
 
-/// Describes one kind of file that a run makes.
+/// Describes one kind of file that a run writes.
 struct FileKind {
   const char* flag;
   ContentKind content;
   std::string RunFolders::*folder;
   std::string play::ScenarioResult::*place;
   const char* ending;
-  std::array<const char*, 3> of_files;  // file name endings, which a folder's name must not have
+  std::array<const char*, 3> of_files;  // file name endings that a folder's name must not have
 };
 constexpr FileKind kRecording{
     "--record", ContentKind::recording, &RunFolders::recordings, &play::ScenarioResult::recording, ".jsonl",
@@ -72,11 +72,11 @@ constexpr FileKind kFailure{
     {".jsonl"}};
 constexpr std::array<FileKind, 4> kFolders{kRecording, kTrace, kCapture, kFailure};
 
-/// Writes a file about a run. The file has one course of events: if the run returns to an earlier state, or
-/// is a branch from one, the file starts again.
+/// Writes a file about a run. The file contains one course of events: if the run returns to an earlier state,
+/// or branches from one, the file is started again.
 class PlayFile final : public play::Observer {
  public:
-  /// Ends the file. Returns why it ended early, or an empty text.
+  /// Ends the file. Returns the reason if it ended early, otherwise an empty text.
   using Finish = std::function<std::string()>;
   using Begin = std::function<Finish(world::World&, const std::string& path)>;
 
@@ -104,7 +104,7 @@ class PlayFile final : public play::Observer {
   Finish finish_;  // owns the file
 };
 
-/// Returns the name with only letters that every file system accepts and no shell needs to quote.
+/// Returns the name reduced to characters that all file systems accept and no shell needs to quote.
 std::string file_name_of(const std::string& name) {
   std::string text;
   for (const char c : name) {
@@ -123,13 +123,13 @@ std::string file_name_of(const std::string& name) {
 
 constexpr const char* kSpool = "spool";
 
-/// Returns a lock that lasts as long as the process, or nothing if another process holds it.
+/// Returns a lock that lasts as long as the process, or nothing if another process has locked the folder.
 Descriptor locked(const std::string& folder) {
   Descriptor lock(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC));
   return lock && ::flock(lock.get(), LOCK_EX | LOCK_NB) == 0 ? std::move(lock) : Descriptor();
 }
 
-/// Removes the spools of `run` processes that were killed. It keeps their saved recordings.
+/// Removes the spools of killed `run` processes, but keeps saved recordings.
 void remove_abandoned_spools() {
   const fs::path folders(serve::kPrivateFolders);
   std::error_code error;
@@ -140,7 +140,7 @@ void remove_abandoned_spools() {
                         S_ISDIR(status.st_mode) && status.st_uid == ::geteuid();
     if (!is_own || !locked(path + "/" + kSpool)) continue;
     fs::remove_all(path + "/" + kSpool, error);
-    fs::remove(path, error);  // succeeds only if the folder is empty
+    fs::remove(path, error);  // fails if the folder is not empty
   }
 }
 
@@ -221,7 +221,8 @@ RunFiles::RunFiles(RunFolders folders, FileClaims claims, Recorded recorded, std
   }
   remove_abandoned_spools();
   serve::remove_left_overs();
-  // The folder gets its name only after it is locked. Otherwise another process would consider it abandoned.
+  // The folder gets its final name only after it is locked. Otherwise another process would consider it
+  // abandoned.
   const std::string unlocked = private_folder_.path() + "/unlocked";
   spool_ = private_folder_.path() + "/" + kSpool;
   fs::create_directory(unlocked, error);
@@ -256,7 +257,7 @@ play::ObserverMaker RunFiles::recorder(const play::Scenario& scenario) {
 
 std::vector<play::ObserverMaker> RunFiles::observers(const play::Scenario& scenario) {
   std::vector<play::ObserverMaker> makers;
-  // Most recordings of varied cases would be thrown away. In virtual time a failed case can run again.
+  // Most recordings of varied cases would be discarded. In virtual time, a failed case can run again.
   const bool is_varied_again = recorded_ == Recorded::again && scenario.which.is_varied;
   if (recorded_ != Recorded::apart && (!is_varied_again || !folders_.recordings.empty()))
     makers.push_back(recorder(scenario));
@@ -281,7 +282,7 @@ std::vector<play::ObserverMaker> RunFiles::observers(const play::Scenario& scena
 
 std::string RunFiles::free_name(const play::ScenarioResult& result) {
   std::string plain = file_name_of(result.name);
-  // Varied cases may be too many to remember their names.
+  // There may be too many varied cases to remember their names.
   if (result.which.is_varied) {
     if (!result.branch.empty()) plain += "-" + file_name_of(result.branch);
     return plain + "-" + play::identity_text(play::identity_of(result.which));

@@ -1,5 +1,5 @@
-// Manages the files that `run` makes for each scenario: recordings, traces, captures. They are spooled below
-// /tmp, then kept in the folders that the user chose.
+// Manages the files that `run` writes for each scenario: recordings, traces, captures. They are spooled below
+// /tmp, then kept in the user's folders.
 #pragma once
 
 #include <array>
@@ -18,24 +18,24 @@
 
 namespace understudy::emulator::command_line {
 
-/// The folders for the files of each scenario. `run` makes them if needed. An empty path means no files.
+/// The folders for the files of each scenario. `run` creates them if necessary. An empty path means no files.
 struct RunFolders {
   std::string recordings;  // the folder for all recordings; empty: only first failures are recorded
-  std::string failures;    // the folder for those of first failures; empty: below /tmp
+  std::string failures;    // the folder for recordings of first failures; empty: below /tmp
   std::string traces;
   std::string captures;
   std::vector<std::string> trace_also;
 };
 
-/// Throws UsageError for folders whose files would overwrite files that the command reads or writes, and for
-/// paths that cannot be folders.
+/// Throws UsageError for folders with files that would overwrite files that the command reads or writes, and
+/// for paths that cannot be folders.
 void require_folders(const FileClaims& claims, const RunFolders& folders);
 
-/// How recordings of failures are made.
+/// How failures are recorded.
 enum class Recorded : std::uint8_t {
   again,   // a varied case runs once more to be recorded
-  always,  // every case is recorded, because none can run again
-  apart,   // the run makes a recording itself
+  always,  // every case is recorded, because a case cannot run again
+  apart,   // the run creates its own recording
 };
 
 class RunFiles {
@@ -47,15 +47,15 @@ class RunFiles {
   RunFiles(const RunFiles&) = delete;
   RunFiles& operator=(const RunFiles&) = delete;
 
-  /// Returns observers that make the files for a scenario's run, or for one of its branches. May be called
+  /// Returns observers that write the files for a scenario's run, or for one of its branches. May be called
   /// on any thread.
   std::vector<play::ObserverMaker> observers(const play::Scenario& scenario);
   play::ObserverMaker recorder(const play::Scenario& scenario);
-  /// Returns the path of a new file, which settle() keeps or removes.
+  /// Returns the path for a new file, which settle() keeps or removes.
   std::string next_spool(const std::string& ending);
-  /// Keeps the files under the result's name, or removes them, and stores their paths in the result. Must be
-  /// called in the order of the results, which decides which result gets a name that occurs twice. `is_new`
-  /// means the first failure of its kind.
+  /// Keeps the files under the result's name, or removes them, and stores their paths in the result. Call
+  /// this in the order of the results, which determines the names of results with the same name. `is_new`
+  /// marks the first failure of its kind.
   void settle(play::ScenarioResult& result, bool is_new);
 
  private:
@@ -66,10 +66,10 @@ class RunFiles {
   Recorded recorded_;
   std::string version_;
   serve::PrivateFolder private_folder_;
-  Descriptor lock_;    // locks the spool while its owner is alive
+  Descriptor lock_;    // locks the spool during the owner's lifetime
   std::string spool_;  // a folder in the private folder
   std::atomic<int> count_ = 0;
-  std::set<std::string> names_;  // the names in use
+  std::set<std::string> names_;  // the used names
 };
 
 }  // namespace understudy::emulator::command_line

@@ -25,7 +25,7 @@ namespace understudy::emulator::command_line {
 
 namespace {
 
-// In real time a scenario mostly waits, so more of them run at once.
+// In real time, scenarios mostly wait, so more of them run at a time.
 constexpr int kRealTimeJobs = 8;
 
 /// Returns all that decides what a real controller is asked, and what it may do.

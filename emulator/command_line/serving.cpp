@@ -63,7 +63,7 @@ void require_possible(const world::DeviceSetup& device) {
   }
 }
 
-/// Returns a bench with one device on all its ports, as the flags describe it.
+/// Returns a bench with one device on all its ports, as described by the flags.
 world::Bench bench_of_flags(ModelList models, const ServeArguments& arguments) {
   std::vector<FileClaim> files;
   world::DeviceSetup device{.model = &require_model(models, arguments.model, files), .settings = {}};
@@ -103,7 +103,7 @@ world::TcpAddress address_wished(const std::string& wish, std::size_t begin) {
   }
 }
 
-/// Parses [LINE=]rtu://[HOST]:PORT. The named line, or the only one, also listens at that address.
+/// Parses [LINE=]rtu://[HOST]:PORT, and adds the address to that line, or to the only line.
 void listen_as_wished(world::Bench& bench, const std::string& wish) {
   const std::size_t equals = wish.substr(0, wish.find("://")).rfind('=');
   const bool names_line = equals != std::string::npos;
@@ -188,7 +188,7 @@ world::Bench make_bench(ModelList models, const ServeArguments& arguments, const
   return bench;
 }
 
-/// Returns the files that the bench uses: its own files, the memories, which are also written, the links and
+/// Returns the files that the bench uses: its own files, the memories (which are also written), the links and
 /// the control socket.
 FileClaims claims_of(const world::Bench& bench, const std::string& control) {
   FileClaims claims;
@@ -203,7 +203,7 @@ FileClaims claims_of(const world::Bench& bench, const std::string& control) {
   return claims;
 }
 
-/// Throws UsageError if the bench has no signal of one of these names.
+/// Throws UsageError if one of these names is not a signal of the bench.
 void require_names(const world::Bench& bench, const std::vector<std::string>& also) {
   if (also.empty()) return;
   try {
@@ -268,7 +268,7 @@ Serving make_serving(ModelList models, const ServeArguments& arguments, const st
 
 namespace {
 
-/// Prints a hint at terminals only, because in a script's log it would look like an error.
+/// Prints a hint only on terminals, because in a script's log it would look like an error.
 void print_parity_hint(const serve::Daemon& daemon) {
   if (isatty(STDERR_FILENO) == 0) return;
   for (const auto& port : daemon.ports()) {

@@ -19,11 +19,11 @@ struct Serving {
   std::optional<gid_t> group;  // a group that may also open the ports
 };
 
-/// Reads the bench and its initial memories. Throws their errors. `command` is for messages.
+/// Reads the bench and its initial memories. Throws the errors of both. `command` is used in messages.
 Serving make_serving(ModelList models, const ServeArguments& arguments, const std::string& command);
 
-/// Prints one line for each port: its pty and its link. Throws PortError if standard output cannot be
-/// written.
+/// Prints a line for each port: its pseudo-terminal and its link. Throws PortError if standard output cannot
+/// be written.
 void print_ready(const serve::Daemon& daemon);
 
 /// Prints the findings of `--lint` to standard error.

@@ -36,7 +36,7 @@ inline constexpr const char* kCoverageHelp =
 inline constexpr const char* kDeviceCoverageHelp =
     "Write to this file which features of the devices were used, and which were not: FILE.json or FILE.html";
 
-/// Adds the flags that choose what is served: a bench, or a single device without one.
+/// Adds the flags that select a bench, or a single device without a bench.
 inline void add_bench_flags(CLI::App& command, ServeArguments& serving) {
   command.add_option("BENCH", serving.bench, "A bench file, unless you use --model");
   command.add_option("--model", serving.model, "Serve one device of this model, without a bench file")
@@ -51,7 +51,7 @@ inline void add_bench_flags(CLI::App& command, ServeArguments& serving) {
   command.add_option("--baud", serving.baud, "Line speed (with --model) [the factory setting]");
 }
 
-/// Adds the flags that set how hosts reach the lines.
+/// Adds the flags for connections between hosts and lines.
 inline void add_port_flags(CLI::App& command, ServeArguments& serving) {
   command
       .add_option("--link", serving.link,
@@ -87,7 +87,7 @@ inline void add_port_flags(CLI::App& command, ServeArguments& serving) {
       ->check(kNotEmpty);
 }
 
-/// Adds the flags that set how the bench runs and which files it writes.
+/// Adds the flags for running the bench and for its output files.
 inline void add_running_flags(CLI::App& command, ServeArguments& serving) {
   command
       .add_option("--speed", serving.speed,

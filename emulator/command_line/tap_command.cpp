@@ -1,4 +1,4 @@
-// Implements `tap`: listens on a line with one or two adapters, and writes a capture. It sends nothing.
+// Implements `tap`: listens on a line with one or two adapters, and writes a capture. Sends nothing.
 #include <poll.h>
 
 #include <algorithm>
@@ -33,10 +33,10 @@ namespace understudy::emulator::command_line {
 
 namespace {
 
-/// A signal ends a wait too, unless it arrives just before the wait.
+/// A signal also ends a wait, unless it arrives just before the wait.
 constexpr int kTapWaitMs = 100;
 
-/// Returns true if both name one port, perhaps with other settings or by a link.
+/// Returns true if both texts refer to the same port, perhaps with different settings or through a link.
 bool is_same_port(const std::string& one, const std::string& other) {
   const std::string first = one.substr(0, one.find(','));
   const std::string second = other.substr(0, other.find(','));
@@ -44,7 +44,7 @@ bool is_same_port(const std::string& one, const std::string& other) {
   return first == second || std::filesystem::equivalent(first, second, error);
 }
 
-/// Real time that never runs backwards, even if the clock is set meanwhile.
+/// Real time that never runs backwards, even if the system clock is set back.
 class RunningClock {
  public:
   SimTime now() const { return at_begin_ + SimTime{serve::wall_now() - begin_}; }
@@ -71,7 +71,7 @@ class Adapter {
     return one_line(name_.place) + (name_.has_settings() ? " at " + pty::to_string(settings_) : "");
   }
 
-  /// Reads the bytes that have arrived, and writes them to the capture with their estimated times.
+  /// Reads the available bytes, and writes them to the capture with their estimated times.
   void take(const RunningClock& clock, pty::CaptureFile& file) {
     box::Bytes bytes;
     if (!wire_->receive(bytes, box::WallTime{0})) return;

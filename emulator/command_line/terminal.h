@@ -1,4 +1,4 @@
-// Output for people at a terminal only: colours, and the progress of a long run.
+// Output that is only for people at a terminal: colours, and the progress of a long run.
 #pragma once
 
 #include <condition_variable>
@@ -10,14 +10,13 @@
 
 namespace understudy::emulator::command_line {
 
-/// Returns "850 played of 100000, ..." without the line's control characters. `seconds` counts from the
-/// start.
+/// Returns "850 played of 100000, ..." without control characters. `seconds` is the time since the start.
 std::string progress_text(std::uint64_t done, std::uint64_t total, std::uint64_t failed, double seconds);
 
 /// Returns true for a terminal, unless NO_COLOR or TERM=dumb turns colours off.
 bool wants_colour(int descriptor);
 
-/// Colours the verdict that begins a line ("ok", "FAIL", "-"), if colours are wanted.
+/// Colours the verdict at the beginning of a line ("ok", "FAIL", "-") if `with_colour` is true.
 std::string coloured_verdict(const std::string& line, bool with_colour);
 
 /// Shows a progress line at the bottom of a terminal: the number of finished and failed cases, the rate, and
@@ -25,9 +24,11 @@ std::string coloured_verdict(const std::string& line, bool with_colour);
 /// terminal, or if the variable CI is set.
 class ProgressLine {
  public:
-  /// `is_wanted` is false for a run that asks questions at the terminal: the line would erase them.
+  /// `is_wanted` is false for a run that asks questions at the terminal, because the progress line would
+  /// erase them.
   explicit ProgressLine(std::uint64_t total, bool is_wanted = true);
-  /// Shows the text that `text_of` returns for the seconds since the start. It is called on another thread.
+  /// `text_of` returns the text to show; its argument is the number of seconds since the start. It is called
+  /// on another thread.
   explicit ProgressLine(std::function<std::string(double)> text_of, bool is_wanted = true);
   ~ProgressLine();  // clears the line
   ProgressLine(const ProgressLine&) = delete;
@@ -44,7 +45,7 @@ class ProgressLine {
     const std::lock_guard lock(mutex_);
     --total_;
   }
-  /// Calls `print`, whose output goes above the progress line.
+  /// Calls `print`, and shows its output above the progress line.
   template <typename Print>
   void above(const Print& print) {
     const std::lock_guard lock(mutex_);
@@ -64,7 +65,7 @@ class ProgressLine {
   std::uint64_t failed_ = 0;
   bool is_shown_ = false;
   bool is_over_ = false;
-  std::thread thread_;  // declared last, because it uses all other members
+  std::thread thread_;  // declared last, because the thread uses all other members
 };
 
 }  // namespace understudy::emulator::command_line

@@ -6,7 +6,7 @@
 
 namespace understudy::emulator::command_line {
 
-/// Reads a text file named on the command line. "-" and "/dev/stdin" mean standard input, which is read to
+/// Reads a text file given on the command line. "-" and "/dev/stdin" mean standard input, which is read to
 /// its end.
 FileText read_text_argument(const std::string& path);
 

@@ -28,7 +28,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Reads single keys without an echo while it exists. Ctrl-C keeps its meaning.
+/// During its lifetime, reads single keys without echoing them. Ctrl-C still works.
 class Keyboard {
  public:
   Keyboard() : exists_(isatty(STDIN_FILENO) != 0 && tcgetattr(STDIN_FILENO, &before_) == 0) {
@@ -52,8 +52,8 @@ class Keyboard {
   bool exists_ = false;
 };
 
-/// Uses the terminal's alternate screen, without a cursor, while it exists. Afterwards the user's content
-/// appears again.
+/// During its lifetime, shows the terminal's alternate screen without a cursor. Afterwards, the previous
+/// content appears again.
 class Screen {
  public:
   Screen() { put("\x1b[?1049h\x1b[?25l"); }
@@ -61,7 +61,7 @@ class Screen {
   Screen(const Screen&) = delete;
   Screen& operator=(const Screen&) = delete;
 
-  /// Overwrites the old lines in a single write. Clearing the screen first would make it flicker.
+  /// Overwrites the old lines in a single write, because clearing the screen first would make it flicker.
   void show(const std::vector<std::string>& lines) {
     const winsize size = size_now();
     std::string text = "\x1b[H";
@@ -72,7 +72,7 @@ class Screen {
   }
   static std::size_t columns() { return size_now().ws_col; }
 
-  /// Waits this long, or until a signal or a key arrives. Returns false if the user wants to end the display.
+  /// Waits this long, or until a signal or a key arrives. Returns false if the user wants to quit.
   bool wait(Clock::duration time) {
     const auto left = std::chrono::ceil<std::chrono::milliseconds>(time).count();
     pollfd keyboard{keyboard_.exists() ? STDIN_FILENO : -1, POLLIN, 0};
@@ -109,7 +109,7 @@ void print(const std::vector<std::string>& lines) {
   std::fflush(stdout);
 }
 
-/// Makes the lines of the display from replies. A later reply may be a refusal, for example if a device has
+/// Formats replies as lines of the display. A later reply may be a refusal, for example because a device has
 /// no power; the refusal is then shown.
 class Shown {
  public:
@@ -143,7 +143,7 @@ int watch(const WatchArguments& arguments) {
   if (arguments.times < 0) throw UsageError("ctl watch: --times: expected 0 (no limit) or more");
   const std::string path = choose_daemon(arguments.which);
   Shown shown(arguments.names);
-  // An error is reported before the terminal is changed: no daemon, or no such name.
+  // Errors, such as a missing daemon or name, are reported before the terminal is changed.
   std::string reply = serve::ask_control(path, shown.message());
   if (const std::string why = serve::why_refused(reply); !why.empty()) {
     std::fprintf(stderr, "understudy: ctl watch: %s\n", one_line(why).c_str());

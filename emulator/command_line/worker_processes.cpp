@@ -25,7 +25,7 @@ namespace understudy::emulator::command_line {
 
 namespace {
 
-/// Sends the bytes. Returns false if the other side has ended.
+/// Sends the bytes. Returns false if the other process has ended.
 bool put(int wire, const void* data, std::size_t size) {
   const auto* at = static_cast<const char*>(data);
   while (size > 0) {
@@ -50,7 +50,7 @@ bool take(int wire, void* data, std::size_t size) {
   return true;
 }
 
-/// Sends the bytes after a header: whether they are an error message, and their number.
+/// Sends the bytes after a header, which contains their number and whether they are an error message.
 bool put(int wire, bool is_error, std::span<const std::byte> bytes) {
   const std::uint64_t size = bytes.size();
   return put(wire, &is_error, sizeof is_error) && put(wire, &size, sizeof size) &&
@@ -77,7 +77,7 @@ std::string why_not_started(int number, int count) {
          std::generic_category().message(errno) + "); expected fewer --jobs";
 }
 
-/// Answers questions until the parent ends, however it ends.
+/// Answers questions until the parent ends in any way.
 [[noreturn]] void work(int wire, pid_t parent, const std::function<Work()>& make_work) {
   prctl(PR_SET_PDEATHSIG, SIGTERM);
   if (getppid() != parent) _exit(0);

@@ -1,5 +1,5 @@
-// Runs work in separate processes, because a case with a command has children and signals, and a process has
-// only one set of them.
+// Runs work in separate processes, because a case with a command needs children and signals, and a process
+// has only one set of signal handlers.
 #pragma once
 
 #include <sys/types.h>
@@ -18,17 +18,17 @@ using Work = std::function<std::vector<std::byte>(std::span<const std::byte>)>;
 
 class WorkerProcesses {
  public:
-  /// Starts `count` processes, each of which makes its own Work. Must be called while this process has only
-  /// one thread.
+  /// Starts `count` processes, each of which creates its own Work. Call this while this process has only one
+  /// thread.
   WorkerProcesses(int count, const std::function<Work()>& make_work);
-  /// Ends the processes, and waits for them.
+  /// Ends the processes, and waits until they have ended.
   ~WorkerProcesses();
   WorkerProcesses(const WorkerProcesses&) = delete;
   WorkerProcesses& operator=(const WorkerProcesses&) = delete;
 
   std::size_t count() const { return workers_.size(); }
-  /// Asks that worker, which no other thread may use meanwhile. Throws pty::PortError with the message of the
-  /// worker's exception, or if the worker has ended.
+  /// Sends a question to a worker, and waits for the answer. No other thread may use the worker at the same
+  /// time. Throws pty::PortError with the message of the worker's exception, or if the worker has ended.
   std::vector<std::byte> ask(std::size_t worker, std::span<const std::byte> question) const;
 
  private:

@@ -1,4 +1,4 @@
-// Watches for an awaited condition, and ends World::advance_to() at the tick at which it is true.
+// Waits for a condition, and ends World::advance_to() at the tick in which the condition is true.
 #pragma once
 
 #include "emulator/play/executors/executor.h"

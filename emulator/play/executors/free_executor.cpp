@@ -38,7 +38,7 @@ SimTime silence_between_frames(const pty::LineSettings& settings) {
   return SimTime{(seven_halves + 2 * settings.baud - 1) / (2 * settings.baud)};
 }
 
-/// The master on one line. It keeps track of when the line was last busy, and receives the line's output.
+/// The master on a line. It keeps track of when the line was last busy, and receives the line's output.
 class FreeExecutor::Host final : public pty::LineObserver {
  public:
   Host(world::World& world, std::size_t number)
@@ -59,7 +59,7 @@ class FreeExecutor::Host final : public pty::LineObserver {
   bool is_ascii() const { return is_ascii_; }
   /// Returns the silence before a frame.
   SimTime silence() const { return is_ascii_ ? SimTime{0} : silence_between_frames(settings_); }
-  /// Returns the longest time between two bytes of one reply: the next may begin just before t3.5 is over.
+  /// Returns the maximum time between two bytes of a reply: the next byte may begin just before t3.5 is over.
   SimTime longest_pause() const { return is_ascii_ ? pty::kAsciiPatience : silence() + duration_of(1); }
   SimTime duration_of(std::size_t count) const {
     if (line().options().timing == pty::Timing::instant) return SimTime{0};
@@ -70,16 +70,16 @@ class FreeExecutor::Host final : public pty::LineObserver {
   SimTime quiet_since() const { return quiet_since_; }
   void keep_busy(SimTime until) { quiet_since_ = std::max(quiet_since_, until); }
   void set_quiet_since(SimTime since) { quiet_since_ = since; }
-  /// Forgets everything after `now`, because simulated time has been set back.
+  /// Forgets everything after `now`, because simulated time was set back.
   void forget_after(SimTime now) { quiet_since_ = now == SimTime{0} ? kEver : std::min(quiet_since_, now); }
 
-  /// Takes the bytes that have arrived since the last call.
+  /// Moves the bytes that have arrived since the last call to `bytes`.
   void take(std::vector<std::uint8_t>& bytes) {
     const auto came = line().output();
     bytes.insert(bytes.end(), came.begin(), came.end());
     take_output(came.size());
   }
-  /// Returns the bytes that have arrived as lines of text, without taking them.
+  /// Returns the bytes that have arrived as lines of text, but does not remove them.
   world::ReceivedLines lines() const {
     const auto came = line().output();
     return world::lines_in({reinterpret_cast<const char*>(came.data()), came.size()});
@@ -107,7 +107,7 @@ class FreeExecutor::Host final : public pty::LineObserver {
  private:
   world::World& world_;
   std::size_t number_;
-  pty::LineSettings settings_;  // the line's at the beginning, because a host does not follow a DIP switch
+  pty::LineSettings settings_;  // of the line at the beginning, because a host does not follow a DIP switch
   bool is_ascii_;
   static constexpr SimTime kEver = SimTime::min() / 2;
   SimTime quiet_since_ = kEver;
@@ -126,7 +126,7 @@ void FreeExecutor::with_world(const std::function<void(world::World&)>& act) {
   const SimTime before = world_.now();
   act(world_);
   if (world_.now() == before) return;
-  // The world is in another state now, so later frames and writes are not part of its past.
+  // The world is in a different state now, so later frames and writes are not part of its past.
   for (const auto& host : hosts_) host->forget_after(world_.now());
   tick_of_last_write_ = 0;
 }
@@ -195,7 +195,7 @@ std::vector<std::uint8_t> FreeExecutor::exchange(std::size_t line, std::span<con
     advance_to_next(deadline);
     host.take(reply);
   }
-  if (world_.now() < deadline) {  // a byte that follows immediately belongs to the reply, expected or not
+  if (world_.now() < deadline) {  // a byte that follows immediately belongs to the reply in any case
     const SimTime rounding{1};    // a character ends at a whole nanosecond
     world_.advance_to(std::min(world_.now() + host.duration_of(1) + rounding, deadline));
     host.take(reply);
@@ -227,7 +227,8 @@ std::vector<std::string> FreeExecutor::exchange_text(std::size_t line, const std
     advance_to_next(deadline);
     received = host.lines();
   }
-  // Bytes that follow an answer immediately belong to it, expected or not, up to one more line.
+  // Bytes that follow an answer immediately belong to it, even if they are not expected, but at most one more
+  // line.
   while (text && world_.now() < deadline && received.finished <= wanted.lines.size()) {
     const std::size_t before = host.line().output().size();
     const SimTime rounding{1};  // a character ends at a whole nanosecond
@@ -245,10 +246,11 @@ std::vector<std::string> FreeExecutor::exchange_text(std::size_t line, const std
   return received.lines;
 }
 
-/// Sends text after the gap. On return, the line has all of it, but may still be sending it.
+/// Sends text after the gap. On return, the whole text is on the line's queue, but may not have been sent
+/// yet.
 void FreeExecutor::put_text(Host& host, const std::string& text) {
   writing_ = nullptr;
-  world_.advance_to(world_.now());  // output from an earlier act at this moment comes first
+  world_.advance_to(world_.now());  // output from an earlier action at this moment comes first
   if (options_.gap > SimTime{0} && host.quiet_since() + options_.gap > world_.now()) {
     world_.advance_to(host.quiet_since() + options_.gap);
   }
@@ -261,7 +263,8 @@ void FreeExecutor::put_text(Host& host, const std::string& text) {
   host.send_text(bytes);
 }
 
-/// Sends a frame after t3.5 and the gap. On return, the line has all of it, but may still be sending it.
+/// Sends a frame after t3.5 and the gap. On return, the whole frame is on the line's queue, but may not have
+/// been sent yet.
 void FreeExecutor::send(Host& host, std::span<const std::uint8_t> bytes) {
   writing_ = nullptr;
   for (SimTime start{0}; start = host.quiet_since() + host.silence() + options_.gap, world_.now() < start;) {
@@ -283,7 +286,7 @@ void FreeExecutor::send(Host& host, std::span<const std::uint8_t> bytes) {
   }
 }
 
-/// Advances to the next event, but not beyond `limit`. A write is executed at such a moment.
+/// Advances to the next event, but not beyond `limit`. Writes are executed at such moments.
 void FreeExecutor::advance_to_next(SimTime limit) {
   world_.advance_to(std::min(world_.next_due().value_or(limit), limit));
   if (writing_ == nullptr || writing_->requests() == requests_before_) return;

@@ -1,6 +1,7 @@
-// An executor in virtual time: simulated time passes as fast as it can, and the host is on the line itself.
-// It is a correct Modbus RTU master: it leaves a silence of t3.5 before each frame (plus the scenario's gap)
-// and no gap within a frame. A reply ends when it is complete, or when t3.5 of silence follows its last byte.
+// An executor in virtual time: simulated time passes as fast as it can, and the host is directly on the line.
+// The host is a correct Modbus RTU master: it leaves a silence of t3.5 (plus the scenario's gap) before each
+// frame, and no gap within a frame. A reply ends when it is complete, or when a silence of t3.5 follows its
+// last byte.
 #pragma once
 
 #include <chrono>
@@ -15,8 +16,8 @@ namespace understudy::emulator::play {
 
 struct FreeExecutorOptions {
   SimTime gap{0};                                    // in addition to t3.5
-  SimTime timeout = std::chrono::milliseconds(500);  // from a request's end to the first byte of its reply
-  std::function<void(const std::string&)> log = {};  // receives messages of devices and lines
+  SimTime timeout = std::chrono::milliseconds(500);  // request end to first reply byte
+  std::function<void(const std::string&)> log = {};  // receives messages from devices and lines
 };
 
 /// Returns t3.5, rounded up to a nanosecond: 3.5 characters, or 1.75 ms above 19200 baud (MODBUS over Serial
@@ -25,7 +26,7 @@ SimTime silence_between_frames(const pty::LineSettings& settings);
 
 class FreeExecutor final : public Executor {
  public:
-  /// Makes a world at its power-up. Throws the exceptions of World.
+  /// Creates a world at power-up. Throws the exceptions of World.
   FreeExecutor(const world::Bench& bench, FreeExecutorOptions options);
   ~FreeExecutor() override;
 
@@ -60,7 +61,7 @@ class FreeExecutor final : public Executor {
   FreeExecutorOptions options_;
   std::vector<std::unique_ptr<Host>> hosts_;  // one per line
   const Host* writing_ = nullptr;             // the host whose write is being executed
-  std::uint64_t requests_before_ = 0;         // the number of requests to its stations before the write
+  std::uint64_t requests_before_ = 0;         // how many requests its stations had received before the write
   Tick tick_of_last_write_ = 0;
 };
 

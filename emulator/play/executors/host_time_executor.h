@@ -1,5 +1,5 @@
-// An executor that runs beside a host in simulated time (docs/host-time.md). The host is another program, so
-// the executor has no host of its own. It acts on the world while the host sleeps and time stands still, so
+// An executor that runs alongside a host in simulated time (docs/host-time.md). The host is another program,
+// so the executor itself has no host. It acts on the world while the host sleeps and time is stopped, so
 // it acts at the same moments in each run.
 #pragma once
 
@@ -20,13 +20,13 @@ namespace understudy::emulator::play {
 
 class HostTimeExecutor final : public Executor {
  public:
-  /// Waits for the scenario's first turn. The world and the turns must outlive it.
+  /// Waits for the scenario's first turn. The world and the turns must outlive this object.
   HostTimeExecutor(world::World& world, Turns& turns);
   ~HostTimeExecutor() override;
   HostTimeExecutor(const HostTimeExecutor&) = delete;
   HostTimeExecutor& operator=(const HostTimeExecutor&) = delete;
 
-  // There is no host, so these throw std::logic_error.
+  // The executor has no host, so these functions throw std::logic_error.
   HostReply read(std::size_t line, int station, Table table, std::uint16_t first, int count) override;
   HostReply write(std::size_t line, int station, Table table, std::uint16_t first,
                   std::span<const std::uint16_t> words) override;
@@ -39,7 +39,7 @@ class HostTimeExecutor final : public Executor {
                                          const world::LinesWanted& wanted, SimTime within) override;
 
   void with_world(const std::function<void(world::World&)>& act) override { act(world_); }
-  /// The waits throw ExecutionAborted if the scenario has been given up.
+  /// These functions throw ExecutionAborted if the scenario has been given up.
   bool run_until(const Awaited& awaited, SimTime deadline) override;
   void advance(SimTime by) override;
   SimTime now() override { return world_.now(); }

@@ -1,4 +1,4 @@
-// Runs libmodbus. No other file of this folder includes its header.
+// Runs libmodbus. No other file in this folder includes its header.
 #include "emulator/play/executors/libmodbus_host.h"
 
 #include <errno.h>
@@ -33,8 +33,8 @@ namespace understudy::emulator::play {
 
 namespace {
 
-// The longest pause between two bytes of a reply. It is long, because a busy machine may delay bytes that
-// follow each other on the line.
+// The maximum pause between two bytes of a reply. It is long, because on a busy machine, bytes that are
+// adjacent on the line may arrive with a delay.
 constexpr serve::WallTime kLongestPause = std::chrono::milliseconds(200);
 
 char letter_of(pty::Parity parity) {
@@ -72,7 +72,7 @@ LibmodbusHost::LibmodbusHost(const std::string& port, const pty::LineSettings& s
     throw pty::PortError(port + ": " + modbus_strerror(errno) + "; expected a serial port at " +
                          pty::to_string(settings));
   }
-  // libmodbus starts its timeout when it has written the request, but the line needs time to carry it.
+  // libmodbus starts its timeout when it has written the request, but the line needs time to transmit it.
   set_time(modbus_set_response_timeout, context_.get(), timeout + settings.duration_of(256));
   set_time(modbus_set_byte_timeout, context_.get(), kLongestPause);
 }
@@ -87,7 +87,7 @@ void LibmodbusHost::keep_silence() const {
 void LibmodbusHost::begin_request(int station) {
   modbus_set_slave(context_.get(), station);
   keep_silence();
-  tcflush(modbus_get_socket(context_.get()), TCIFLUSH);  // late bytes belong to no request
+  tcflush(modbus_get_socket(context_.get()), TCIFLUSH);  // late bytes do not belong to any request
   quiet_since_ = serve::wall_now();
 }
 
@@ -153,7 +153,7 @@ HostReply LibmodbusHost::write_message(int station, std::uint16_t first,
   return judge(modbus_write_registers(context_.get(), first, static_cast<int>(words.size()), words.data()));
 }
 
-/// Reads the bytes that are available, or arrive before `until`. Returns 0 if there are none.
+/// Reads the bytes that are available, or that arrive before `until`. Returns 0 if there are none.
 std::size_t LibmodbusHost::read_some(std::vector<std::uint8_t>& bytes, serve::WallTime until) const {
   pollfd port{.fd = modbus_get_socket(context_.get()), .events = POLLIN, .revents = 0};
   const serve::WallTime rest = std::max(until - serve::wall_now(), serve::WallTime{0});
@@ -206,7 +206,8 @@ std::vector<std::string> LibmodbusHost::exchange_text(const std::optional<std::s
     read_some(unread_, deadline);
     received = received_lines();
   }
-  // Bytes that follow an answer immediately belong to it, expected or not, up to one more line.
+  // Bytes that follow an answer immediately belong to it, even if they are not expected, but at most one more
+  // line.
   constexpr serve::WallTime kAtOnce = std::chrono::milliseconds(3);
   while (text && received.finished <= wanted.lines.size() && serve::wall_now() < deadline) {
     if (read_some(unread_, std::min(deadline, serve::wall_now() + kAtOnce)) == 0) break;
@@ -241,7 +242,7 @@ std::vector<std::uint8_t> LibmodbusHost::exchange(std::span<const std::uint8_t> 
   quiet_since_ = start + sending;
   std::vector<std::uint8_t> reply;
   while (reply.size() < wanted && serve::wall_now() < deadline) read_some(reply, deadline);
-  // A byte that follows immediately belongs to the reply, expected or not.
+  // A byte that follows immediately belongs to the reply, even if it is not expected.
   if (!reply.empty() && serve::wall_now() < deadline) {
     read_some(reply, std::min(deadline, serve::wall_now() + std::chrono::milliseconds(3)));
   }

@@ -1,4 +1,4 @@
-// Uses libmodbus as the master on a serial port, as a real host would.
+// Uses libmodbus as the master on a serial port, like a real host.
 #pragma once
 
 #include <cstdint>
@@ -17,8 +17,8 @@ namespace understudy::emulator::play {
 
 class LibmodbusHost {
  public:
-  /// `timeout` is the time from a request's end to the first byte of its reply; `silence` is kept before each
-  /// request. Throws pty::PortError.
+  /// `timeout` is the time from the end of a request to the first byte of its reply. `silence` is left before
+  /// each request. Throws pty::PortError.
   LibmodbusHost(const std::string& port, const pty::LineSettings& settings, serve::WallTime timeout,
                 serve::WallTime silence);
   ~LibmodbusHost();
@@ -28,12 +28,13 @@ class LibmodbusHost {
   HostReply read(int station, Table table, std::uint16_t first, int count);
   HostReply write(int station, Table table, std::uint16_t first, std::span<const std::uint16_t> words);
   HostReply write_message(int station, std::uint16_t first, std::span<const std::uint16_t> words);
-  /// Exchanges raw bytes without libmodbus; see Executor::exchange(). `sending` is how long the line takes to
-  /// carry them.
+  /// Exchanges raw bytes without libmodbus; see Executor::exchange(). `sending` is the time that the line
+  /// needs to transmit the bytes.
   std::vector<std::uint8_t> exchange(std::span<const std::uint8_t> bytes, std::size_t wanted,
                                      serve::WallTime sending, serve::WallTime within);
 
-  /// Returns the bytes that arrive next: all that are there at once. Empty: none within that time.
+  /// Returns all bytes that are available when the next byte arrives. Empty: no byte arrived within that
+  /// time.
   std::vector<std::uint8_t> receive(serve::WallTime within);
 
   /// Exchanges lines of text without libmodbus; see Executor::exchange_text().
@@ -59,7 +60,7 @@ class LibmodbusHost {
   std::unique_ptr<_modbus, Close> context_;
   serve::WallTime silence_;
   serve::WallTime quiet_since_{0};
-  std::vector<std::uint8_t> unread_;  // received characters of lines of text
+  std::vector<std::uint8_t> unread_;  // received characters of text lines
 };
 
 }  // namespace understudy::emulator::play

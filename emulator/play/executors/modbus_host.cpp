@@ -37,7 +37,7 @@ const FunctionRow& require_function(Table table, FunctionRow::Kind kind) {
   throw std::logic_error("no function writes to inputs; expected coils or holding registers");
 }
 
-/// Returns the function of a request that reads, or null for one that writes.
+/// Returns the function of a request that reads, or null for a request that writes.
 const FunctionRow* reading_function(std::uint8_t code) {
   for (const FunctionRow& row : world::kModbusFunctions) {
     if (row.code == code && row.kind == FunctionRow::Kind::read) return &row;

@@ -1,4 +1,4 @@
-// Makes the frames of a Modbus RTU host, and judges replies. It does not handle time or lines.
+// Creates the frames of a Modbus RTU host, and evaluates replies. It does not deal with time or lines.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,8 @@
 namespace understudy::emulator::play {
 
 std::vector<std::uint8_t> read_request(int station, Table table, std::uint16_t first, int count);
-/// Uses functions 05 and 06 for one coil or holding register, 0F and 10 for more. Each bit takes a word.
+/// Uses function 05 or 06 for a single coil or holding register, and 0F or 10 for several. Each bit occupies
+/// a word.
 std::vector<std::uint8_t> write_request(int station, Table table, std::uint16_t first,
                                         std::span<const std::uint16_t> words);
 
@@ -18,14 +19,14 @@ std::vector<std::uint8_t> write_request(int station, Table table, std::uint16_t 
 std::vector<std::uint8_t> message_request(int station, std::uint16_t first,
                                           std::span<const std::uint16_t> words);
 
-/// Returns how many bytes a host waits for after it has sent `request` and received `reply` so far.
+/// Returns for how many bytes a host waits after it has sent `request` and received `reply` so far.
 std::size_t wanted_size(std::span<const std::uint8_t> request, std::span<const std::uint8_t> reply);
 
-/// Returns the meaning of `reply` (all received bytes) as the answer to a request of read_request() or
+/// Returns the meaning of `reply` (all received bytes) as the answer to a request from read_request() or
 /// write_request().
 HostReply judge_reply(std::span<const std::uint8_t> request, std::span<const std::uint8_t> reply);
 
-/// The same for the reply on a line of Modbus ASCII, to the request in that frame of RTU.
+/// The same for a reply on a Modbus ASCII line. `request` is the request as an RTU frame.
 HostReply judge_ascii_reply(std::span<const std::uint8_t> request, std::span<const std::uint8_t> reply);
 
 }  // namespace understudy::emulator::play

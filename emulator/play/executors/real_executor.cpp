@@ -42,14 +42,14 @@ namespace understudy::emulator::play {
 
 namespace {
 
-// The daemon sleeps until something is due. For a watcher of every tick, it wakes at this interval.
+// The daemon sleeps until something is due. If a watcher needs every tick, it wakes up at this interval.
 constexpr serve::WallTime kCheckInterval = std::chrono::milliseconds(1);
-// A wait checks at this interval whether the scenario was given up.
+// During a wait, this is the interval for checking whether the scenario was given up.
 constexpr serve::WallTime kLongestSleep = std::chrono::milliseconds(50);
 
 }  // namespace
 
-/// Watches on the daemon's thread for a condition that another thread waits for.
+/// On the daemon's thread, watches for a condition for which another thread is waiting.
 class RealExecutor::DeadlineWatch final : public world::TickWatcher {
  public:
   DeadlineWatch(const std::function<bool(world::World&)>& is_met, SimTime deadline)
@@ -64,7 +64,7 @@ class RealExecutor::DeadlineWatch final : public world::TickWatcher {
     if (time_of(tick) <= deadline_) check(time_of(tick));
   }
 
-  /// Waits for at most `patience`. Rethrows the exception of the condition.
+  /// Waits for at most `patience`. Rethrows an exception from the condition.
   std::optional<SimTime> wait(serve::WallTime patience) {
     std::unique_lock lock(mutex_);
     changed_.wait_for(lock, patience, [this] { return found_at_ || error_; });
@@ -188,7 +188,7 @@ bool RealExecutor::run_until(const Awaited& awaited, SimTime deadline) {
     found_at_ = watch.wait(kCheckInterval);
     if (found_at_) return true;
     throw_if_given_up();
-    // Asking for the time brings the world up to date and shows every tick up to now.
+    // Requesting the time brings the world up to date and notifies the watchers of every tick up to now.
     const auto rest = wall_time_until(deadline);
     if (rest == serve::WallTime{0}) {
       found_at_ = watch.wait(serve::WallTime{0});
@@ -253,12 +253,12 @@ HostReply RealExecutor::write_message(std::size_t line, int station, std::uint16
   return with_bytes(line, host(line).write_message(station, first, words));
 }
 
-/// Exchanges frames of Modbus ASCII, which libmodbus does not know. `request` is that of RTU.
+/// Exchanges Modbus ASCII frames, which libmodbus does not support. `request` is the corresponding RTU frame.
 HostReply RealExecutor::ask_ascii(std::size_t line, const std::vector<std::uint8_t>& request) {
   const std::vector<std::uint8_t> frame = pty::ascii_of_rtu(request);
   constexpr std::size_t kShortestReply = 11;
   std::vector<std::uint8_t> reply = exchange(line, frame, kShortestReply, options_.timeout);
-  // The rest arrives without a request; whatever the reply is, it ends with LF.
+  // The rest arrives without a request. Every reply ends with LF.
   while (!reply.empty() && reply.back() != '\n') {
     const std::vector<std::uint8_t> more = host(line).receive(options_.timeout);
     if (more.empty()) break;
@@ -311,7 +311,7 @@ SimTime RealExecutor::time_to_send(std::size_t line, const std::string& text) co
 std::unique_ptr<Executor> make_real_executor(const Scenario& scenario) {
   world::Bench bench = scenario.bench;
   for (world::LineSetup& line : bench.lines) {
-    line.link.clear();  // other runs may use the same link
+    line.link.clear();  // because other runs may use the same link
     line.tcp.clear();
     line.has_pty = true;
   }

@@ -1,5 +1,5 @@
-// Gives the world to one of two threads at a time: the one that runs it, or the scenario's. The scenario
-// therefore acts at exact moments of simulated time, which are the same in every run.
+// Gives the world to one of two threads at a time: the thread that runs it, or the scenario's thread.
+// Therefore, the scenario acts at exact moments of simulated time, which are the same in every run.
 #pragma once
 
 #include <condition_variable>
@@ -18,18 +18,18 @@ class Turns final : public serve::SimulatedTask {
   // --- called by the thread that runs the world ----------------------------------------------------
   void act(SimTime now) override;
   std::optional<SimTime> next_act() const override;
-  /// Gives the scenario up. Its wait ends at the next act().
+  /// Gives up the scenario. Its wait ends at the next act().
   void give_up();
-  /// Called when the world is no longer running. The scenario may then act on it at any time.
+  /// Called when the world has stopped running. The scenario may then act on it at any time.
   void leave();
 
   // --- called by the scenario's thread -------------------------------------------------------------
   /// Waits for the first turn.
   void begin();
-  /// Gives the turn away until simulated time reaches `end`, the watch finds its condition, or the scenario
-  /// is given up.
+  /// Passes on the turn until simulated time reaches `end`, the watch finds its condition, or the scenario is
+  /// given up.
   void wait_until(SimTime end, ConditionWatch* watch = nullptr);
-  /// Called when the scenario no longer acts.
+  /// Called when the scenario will not act any more.
   void finish();
 
   bool is_given_up() const;
@@ -42,7 +42,7 @@ class Turns final : public serve::SimulatedTask {
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   Whose turn_ = Whose::world;
-  /// When the scenario's wait ends; nothing after finish(). kForever: it waits for the host's end.
+  /// When the scenario's wait ends; nothing after finish(). kForever: it is waiting until the host ends.
   std::optional<SimTime> end_ = SimTime{0};
   ConditionWatch* watch_ = nullptr;
   bool is_given_up_ = false;

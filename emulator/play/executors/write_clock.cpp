@@ -42,9 +42,9 @@ void WriteClock::restart() {
   unanswered_ = kNone;
 }
 
-/// Receives frames. A request arrives at the moment at which it is executed, a reply when it begins.
+/// Receives frames. A request is received when it is executed, a reply when it begins.
 void WriteClock::on_packet(std::size_t line, const pty::CapturedPacket& packet) {
-  if (packet.bytes.empty()) return;  // the entry only reports what a fault did
+  if (packet.bytes.empty()) return;  // the entry only reports the effect of a fault
   const world::WorldLine& on = world_.line(line);
   if (packet.direction == pty::Direction::from_host) {
     answers_[line].clear();

@@ -1,5 +1,5 @@
-// Records, from the traffic on a world's lines, when the last write of any host was executed, and what was
-// sent back since a line's last request.
+// Determines, from the traffic on a world's lines, when the last write of any host was executed, and what
+// stations have sent since the last request on a line.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@ namespace understudy::emulator::play {
 
 class WriteClock {
  public:
-  /// The world must outlive it.
+  /// The world must outlive this object.
   explicit WriteClock(world::World& world);
   ~WriteClock();
   WriteClock(const WriteClock&) = delete;
@@ -23,9 +23,9 @@ class WriteClock {
   /// Returns the tick from which the last write takes effect, or 0 if there was none. Refused writes do not
   /// count.
   Tick tick_of_last_write() const { return last_; }
-  /// Returns the bytes that stations have sent since the line's last request.
+  /// Returns the bytes that stations have sent since the last request on the line.
   const std::vector<std::uint8_t>& answer_on(std::size_t line) const { return answers_[line]; }
-  /// Forgets partly received frames, after the lines were put into another state.
+  /// Discards partially received frames after the lines were put into another state.
   void restart();
 
  private:
@@ -35,7 +35,7 @@ class WriteClock {
 
   world::World& world_;
   std::vector<std::unique_ptr<pty::CaptureFrames>> framers_;  // one per line
-  std::vector<std::vector<std::uint8_t>> answers_;            // the same
+  std::vector<std::vector<std::uint8_t>> answers_;            // one per line
   Tick last_ = 0;
   Tick before_ = 0;  // the tick of the previous write
   static constexpr std::size_t kNone = SIZE_MAX;

@@ -29,7 +29,7 @@ namespace {
 constexpr std::size_t kMaxWaiting = 4 * pty::kRtuMaxFrame;
 constexpr int kFastestByCharacters = 19200;
 
-/// Returns t1.5, the longest silence within a frame (MODBUS over Serial Line V1.02, 2.5.1.1).
+/// Returns t1.5, the maximum silence within a frame (MODBUS over Serial Line V1.02, 2.5.1.1).
 SimTime one_and_a_half_characters(const pty::LineSettings& settings) {
   if (settings.baud > kFastestByCharacters) return std::chrono::microseconds(750);
   return settings.duration_of(3) / 2;
@@ -41,8 +41,8 @@ HostLint::HostLint(world::World& world, std::size_t line)
     : world_(world),
       number_(line),
       options_(world.line(line).line.options()),
-      // The framer is never strict, whatever the devices are: it must receive frames that a strict one would
-      // drop, in order to explain why it would drop them.
+      // The framer is never strict, even if the devices are: it must receive frames that a strict framer
+      // would drop, in order to explain why.
       framer_({.strict = false,
                .silence = SimTime{0},
                .patience = world.line(line).framing.patience,
@@ -77,7 +77,7 @@ void HostLint::restart() {
 
 void HostLint::on_character(const pty::TimedByte& character, bool is_received) {
   const bool follows = last_number_ == 0 || character.number == last_number_ + 1;
-  if (!follows || !is_received) restart();  // a host whose bytes no device receives has other problems
+  if (!follows || !is_received) restart();  // bytes that no device receives are a different problem
   last_number_ = character.number;
   under_way_.reset();
   if (!is_received) return;
@@ -173,7 +173,7 @@ void HostLint::judge_write(const Device& device, const world::ModbusRequest& req
     const Place place = bank.at(request.writes->table, address);
     if (!place) continue;
     const std::string name = device.name() + "." + bank.map().unique_name(*place.row, place.index);
-    // A register of two words counts once.
+    // A register with two words counts once.
     const bool is_second_word = place.row == last_row && place.index == last_index;
     last_row = place.row;
     last_index = place.index;

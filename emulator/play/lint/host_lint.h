@@ -1,4 +1,4 @@
-// Judges how the host of one line behaves. It only observes, so the line does the same without it.
+// Checks how the host on a line behaves. It only observes, and does not affect the line.
 #pragma once
 
 #include <optional>
@@ -20,10 +20,10 @@ class HostLint final : public pty::LineObserver {
   HostLint(const HostLint&) = delete;
   HostLint& operator=(const HostLint&) = delete;
 
-  /// Forgets the traffic so far, after the line has been put into another state.
+  /// Forgets the traffic so far, after the line was put into another state.
   void restart();
   const Findings& findings() const { return findings_; }
-  /// Return the silences that the line must have before a request, and may have within one. Neither is
+  /// Return the minimum silence before a request, and the maximum silence within a request. Neither is
   /// checked if bytes take no time.
   SimTime silence() const { return silence_; }
   SimTime longest_gap() const { return longest_gap_; }
@@ -44,19 +44,19 @@ class HostLint final : public pty::LineObserver {
     SimTime start{0};
     SimTime idle{0};  // the silence before it; negative if the line was still busy
   };
-  /// The last request, until it is answered.
+  /// The last request, until its answer arrives.
   struct Asked {
     std::uint8_t station = 0;
     std::uint8_t function = 0;
     SimTime at{0};
     std::uint64_t last_character = 0;
-    std::string command{};          // the name of its command; empty: none
-    std::vector<std::string> worn;  // registers in EEPROM that it changes, if it is executed
+    std::string command{};          // the name of its command; empty: it is not a command
+    std::vector<std::string> worn;  // registers in EEPROM that it changes if it is executed
   };
 
   bool has_time() const { return options_.timing == pty::Timing::wire; }
   Finding& find(LintRule rule, std::string subject = {}) { return findings_[{rule, std::move(subject)}]; }
-  /// `command` is the name of the frame's command, if it has one.
+  /// `command` is the name of the frame's command, if any.
   void judge_times(std::span<const Character> frame, const std::string& command);
   void judge_request(std::span<const std::uint8_t> frame, const Character& last, SimTime at,
                      const std::string& command);
@@ -69,8 +69,8 @@ class HostLint final : public pty::LineObserver {
   SimTime silence_{0};
   SimTime longest_gap_{0};
   pty::RtuFramer framer_;
-  std::vector<Character> waiting_;    // characters that are not in a frame yet
-  std::optional<SimTime> under_way_;  // the start of a character that has not ended
+  std::vector<Character> waiting_;    // characters that are not part of a frame yet
+  std::optional<SimTime> under_way_;  // the start of a character that has not ended yet
   std::optional<SimTime> busy_until_;
   std::uint64_t last_number_ = 0;
   std::optional<Asked> asked_;

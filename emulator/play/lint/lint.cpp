@@ -17,10 +17,10 @@ namespace understudy::emulator::play {
 
 namespace {
 
-// Small EEPROMs are specified for this many writes of one cell.
+// Small EEPROMs are specified for this many writes per cell.
 constexpr std::int64_t kEndurance = 100'000;
-// A register is reported if it changed more often than this, at a rate that would wear out its cells in less
-// than the minimum life.
+// A register is reported if it changed more often than this, at a rate that would wear out its cells before
+// the minimum lifetime.
 constexpr std::uint64_t kChangesAllowed = 10;
 constexpr SimTime kMinLife = std::chrono::hours(24 * 365);
 
@@ -29,7 +29,7 @@ std::string counted(std::uint64_t count, const char* one, const char* several) {
   return std::to_string(count) + " " + (count == 1 ? one : several);
 }
 
-/// Returns a rough time: "1.4 hours".
+/// Returns an approximate time: "1.4 hours".
 std::string rough(SimTime time) {
   struct Scale {
     SimTime unit;
@@ -44,8 +44,8 @@ std::string rough(SimTime time) {
          scale.name;
 }
 
-/// Returns how long a cell lasts at the rate of its changes, or nothing if there are few changes or it lasts
-/// long enough.
+/// Returns how long a cell lasts at the rate of its changes. Returns nothing if there are only a few changes,
+/// or if the cell lasts long enough.
 std::optional<SimTime> life_of(const Finding& changes) {
   if (changes.count <= kChangesAllowed) return std::nullopt;
   const auto intervals = static_cast<std::int64_t>(changes.count - 1);
@@ -54,7 +54,8 @@ std::optional<SimTime> life_of(const Finding& changes) {
   return interval * kEndurance;
 }
 
-/// Returns the text of a finding without the line and the time, or an empty text if it need not be reported.
+/// Returns the text of a finding without the line and the time, or an empty text if the finding need not be
+/// reported.
 std::string text_of(const HostLint& line, LintRule rule, const std::string& subject, const Finding& finding) {
   const std::uint64_t count = finding.count;
   switch (rule) {

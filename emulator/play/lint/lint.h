@@ -1,5 +1,5 @@
-// Checks how hosts behave on a world's lines: behaviour that works here, or only just, but would fail with a
-// real controller. It observes for its whole lifetime, and reports once, at the end.
+// Checks how hosts behave on a world's lines. It finds behaviour that works here, perhaps only just, but
+// would fail with a real controller. It observes for its whole lifetime, and reports once, at the end.
 #pragma once
 
 #include <memory>
@@ -13,15 +13,15 @@ namespace understudy::emulator::play {
 
 class Lint final : public Observer {
  public:
-  /// The world must outlive it.
+  /// The world must outlive this object.
   explicit Lint(world::World& world);
 
-  /// Returns one line of text for each finding, with the number of occurrences and the time of the first, in
-  /// the order of the bench's lines. Empty if there are none.
+  /// Returns a line of text for each finding, with the number of occurrences and the time of the first one,
+  /// in the order of the bench's lines. Empty if there are no findings.
   std::vector<std::string> findings() const;
 
   void world_restored(std::size_t steps) override;
-  /// Writes ScenarioResult::lint_findings.
+  /// Sets ScenarioResult::lint_findings.
   void finish(ScenarioResult& result) override { result.lint_findings = findings(); }
 
  private:

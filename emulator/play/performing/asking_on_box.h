@@ -1,5 +1,5 @@
-// Asks real controllers for the values of the names in expressions. Only performance_on_box.cpp includes this
-// file.
+// Queries real controllers for the values of the names in expressions. Only performance_on_box.cpp includes
+// this file.
 #pragma once
 
 #include <algorithm>
@@ -27,7 +27,7 @@ class Performance::OnBox::Asking {
 
   world::Expression parse(const std::string& text) const { return world::parse_expression(text, names_); }
 
-  /// Asks for all names of an expression. Throws Skip if a value is not available.
+  /// Queries all names in an expression. Throws Skip if a value is not available.
   void ask(const world::Expression& expression) {
     std::vector<Target> targets;
     std::vector<std::int32_t> handles;
@@ -54,7 +54,7 @@ class Performance::OnBox::Asking {
   void read(const std::vector<Target>& targets, const std::vector<std::int32_t>& handles) {
     if (targets.empty()) return;
     Performance& performance = on_box_.performance_;
-    // Sorted by address, so that neighbours share a request.
+    // Sorted by address, so that neighbouring registers are read in one request.
     std::vector<bool> low_word_first;
     const std::vector<Words> words = performance.words_of_all(targets, low_word_first);
     std::vector<std::size_t> order(targets.size());

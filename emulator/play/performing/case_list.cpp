@@ -32,17 +32,17 @@ namespace understudy::emulator::play {
 
 namespace {
 
-// Reading a case again takes less than a tenth of the time of its run, but suites of an ordinary size need
-// not do so.
+// Reading a case again takes less than a tenth of the time of its run, but for test suites of ordinary size,
+// it is not necessary.
 constexpr std::size_t kMaxHeld = 1000;
-constexpr std::size_t kMaxShared = 256;  // benches and files of steps
+constexpr std::size_t kMaxShared = 256;  // benches and step files
 constexpr std::size_t kTrimEvery = 256;  // files
 
 std::uint64_t hash_of_text(std::string_view text, std::uint64_t onto) {
   return hash_of(std::as_bytes(std::span(text)), onto);
 }
 
-/// Forgets shared files if there are too many.
+/// Discards shared files if there are too many.
 void keep_few(SharedReading& shared) {
   if (shared.benches.size() > kMaxShared) shared.benches.clear();
   if (shared.included.size() > kMaxShared) shared.included.clear();
@@ -85,7 +85,7 @@ void CaseList::add(const std::string& path, const std::function<void(const Scena
   ScenarioFile opened(path, options_, shared_);
   File file{.path = path, .size = opened.size(), .is_varied = opened.is_varied(), .made_of = 0, .held = {}};
   const bool is_held = !file.is_varied && held_ + file.size <= kMaxHeld;
-  // The hash depends neither on where the files are nor on how their paths are spelled.
+  // The hash depends neither on the location of the files nor on the spelling of their paths.
   std::set<std::uint64_t> contents;
   opened.check([&](Scenario scenario) {
     look(scenario);
@@ -97,12 +97,12 @@ void CaseList::add(const std::string& path, const std::function<void(const Scena
     file.made_of = hash_of_text(identity_text(content), file.made_of);
   held_ += file.held.size();
   files_.push_back(std::move(file));
-  // The little data kept for each file lies between the memory of its worlds, and glibc 2.36 reuses aligned
-  // memory only if it is contiguous. This gives back 14 KiB per file.
+  // The small amount of data that is kept for each file is located between the memory of its worlds, and
+  // glibc 2.36 reuses aligned memory only if it is contiguous. This call returns 14 KiB per file.
   if (files_.size() % kTrimEvery == 0) ::malloc_trim(0);
 }
 
-/// Claims the paths that a case saves. Listed cases did so when they were checked.
+/// Claims the paths that a case saves. For listed cases, this was done when they were checked.
 void CaseList::claim_saved(const Scenario& scenario) const {
   const std::uint64_t who = identity_of(scenario.which) ^ hash_of_text(scenario.file, hash_of({}));
   for (const std::string& path : scenario.saved) {

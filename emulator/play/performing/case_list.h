@@ -1,5 +1,5 @@
-// Lists the cases of a run: scenario files with all their cases. Files are read and checked before anything
-// runs. Cases are kept only if there are few; otherwise each is read again when it is run.
+// The cases of a run: scenario files with all their cases. Files are read and checked before anything runs.
+// Cases are kept only if there are few; otherwise, each case is read again when it is run.
 #pragma once
 
 #include <cstdint>
@@ -20,15 +20,16 @@
 
 namespace understudy::emulator::play {
 
-/// A part of a suite: number 1 has the first case and every `of`th case after it.
+/// A part of a test suite: shard number 1 contains the first case and every `of`th case after it.
 struct Shard {
   std::uint64_t number = 1;
   std::uint64_t of = 1;
 };
-/// Reads "2/4". Returns nothing for any other text.
+/// Parses "2/4". Returns nothing for any other text.
 std::optional<Shard> parse_shard(std::string_view text);
 
-/// Returns true if the pattern (`*`, `?`, `[abc]`) matches the case's name, or if it is the case's identity.
+/// Returns true if the pattern (`*`, `?`, `[abc]`) matches the name of the case, or if it is the identity of
+/// the case.
 bool matches(const std::string& pattern, const std::string& name, std::uint64_t identity);
 
 class CaseList {
@@ -43,7 +44,7 @@ class CaseList {
   bool is_varied(std::size_t file) const { return files_[file].is_varied; }
   std::uint64_t cases_of(std::size_t file) const { return files_[file].size; }
   std::uint64_t cases() const;
-  /// Returns a hash of everything that a file is read from.
+  /// Returns a hash of all sources from which a file is read.
   std::uint64_t made_of(std::size_t file) const { return files_[file].made_of; }
 
  private:
@@ -61,21 +62,20 @@ class CaseList {
   ReadingOptions options_;
   SharedReading shared_;
   std::vector<File> files_;
-  std::size_t held_ = 0;                         // the number of held cases in all files
+  std::size_t held_ = 0;                         // the number of kept cases in all files
   std::map<std::string, std::uint64_t> hashes_;  // of files, by path
-  // The files that unlisted cases save: a hash of the path, and one of the case.
+  // The files that unlisted cases save: a hash of the path, and a hash of the case.
   mutable std::mutex saved_mutex_;
   mutable std::unordered_map<std::uint64_t, std::uint64_t> saved_;
 };
 
-/// Reads the cases of a case list. Each thread has its own reader.
+/// Reads the cases in a case list. Each thread has its own reader.
 class CaseReader {
  public:
   explicit CaseReader(const CaseList& case_list);
-  /// Throws FileError for a case that is wrong but was not checked in advance, or for a file that has
-  /// changed.
+  /// Throws FileError if the case is wrong and was not checked in advance, or if a file has changed.
   std::shared_ptr<const Scenario> read(const CaseId& which_case);
-  // Returns the name without reading all of the case.
+  // Returns the name without reading the whole case.
   std::string name_of(const CaseId& which_case);
   Case case_of(const CaseId& which_case);
 
@@ -87,13 +87,13 @@ class CaseReader {
   std::unique_ptr<ScenarioFile> open_;
 };
 
-/// The cases of a case list that match a pattern, or one shard of them, in order.
+/// The cases in a case list that match a pattern, or one shard of these cases, in order.
 class Selection {
  public:
   /// An empty pattern matches all.
   Selection(const CaseList& case_list, std::string pattern, Shard shard);
   std::optional<CaseId> next();
-  /// Returns how many cases next() returns in total. With a pattern they are counted one by one.
+  /// Returns how many cases next() will return in total. With a pattern, they are counted one by one.
   static std::uint64_t count(const CaseList& case_list, const std::string& pattern, Shard shard);
 
  private:
@@ -102,7 +102,7 @@ class Selection {
   Shard shard_;
   CaseReader reader_;
   CaseId at_;
-  std::uint64_t selected_ = 0;  // matches so far
+  std::uint64_t selected_ = 0;  // number of matches so far
 };
 
 }  // namespace understudy::emulator::play

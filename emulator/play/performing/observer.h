@@ -1,5 +1,5 @@
-// Observes a scenario to produce something at its end, such as a report or the findings about a host. The
-// scenario runs the same with or without it.
+// Observes a scenario to produce a result at the end, such as a report or findings about a host. The observer
+// does not affect the scenario.
 #pragma once
 
 #include <cstddef>
@@ -15,15 +15,15 @@ namespace understudy::emulator::play {
 class Observer {
  public:
   virtual ~Observer() = default;
-  /// Called when the world has been put into another state, after this many steps. Time may have gone back,
-  /// and the state of the lines has changed.
+  /// Called when the world was put into another state, after this many steps. Time may have gone back, and
+  /// the state of the lines has changed.
   virtual void world_restored(std::size_t steps) = 0;
   virtual void step_over() {}
-  /// Called when the scenario is over. Writes the observations into its result.
+  /// Called when the scenario has ended. Writes the observations into its result.
   virtual void finish(ScenarioResult& result) = 0;
 };
 
-/// Called for each scenario and each branch. The world outlives the result.
+/// Called for each scenario and each branch. The world outlives the returned observer.
 using ObserverMaker = std::function<std::unique_ptr<Observer>(world::World&)>;
 
 }  // namespace understudy::emulator::play

@@ -34,7 +34,7 @@ namespace {
 
 constexpr std::size_t kFramesReported = 10;
 
-/// Returns true if an expression needs a value that must be watched at every tick from the beginning.
+/// Returns true if an expression needs a value that must be watched in every tick from the beginning.
 bool names_peaks(const Steps& steps);
 
 struct NamesPeaks {
@@ -74,7 +74,7 @@ struct MovesTime {
 };
 bool moves_time(const Step& step) { return std::visit(MovesTime{}, step.what); }
 
-/// Adds the conditions that these steps, or their branches, wait for before anything else moves time.
+/// Adds the conditions for which these steps or their branches wait before anything else changes the time.
 void add_awaited(std::span<const Step> steps, std::vector<std::string>& conditions) {
   for (const Step& step : steps) {
     if (const auto* const wait = std::get_if<WaitStep>(&step.what); wait != nullptr && !wait->poll) {
@@ -183,7 +183,7 @@ Failure Performance::explain_failure(const StepError& error) {
       .what = error.what(), .expected = error.expected, .came = error.came, .details = error.details};
   executor_->with_world([&](world::World& world) {
     failure.frames = world_observers_->frames.last(kFramesReported);
-    // A violated span comes first, because it was violated before anything else failed.
+    // A violated span takes precedence, because it was violated before anything else failed.
     if (const auto& violation = world_observers_->spans.violation()) {
       failure.at = violation->at;
       failure.what = violation->what + " did not hold at " + format_duration(violation->at);

@@ -1,4 +1,4 @@
-// Performs steps over the line: write, expect, send.
+// Performs steps that use the line: write, expect, send.
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -72,7 +72,7 @@ void Performance::require(const HostReply& reply, const Answer& answer, const st
                   what + ": " + to_text(reply));
 }
 
-/// Requires silence. The host gives up after `within`, whatever it receives.
+/// Requires silence. The host waits until `within` is over, whatever it receives.
 void Performance::require_silence(const Place& place, const std::vector<std::uint8_t>& request,
                                   SimTime within, const std::string& what) {
   moment_in(within);  // throws if that is beyond the end of simulated time
@@ -146,7 +146,7 @@ void Performance::perform(const WriteStep& step) {
         require(reply, {}, "read " + targets[entry].name + place.on_line + " to write it");
         present = reply.words;
       }
-      // An earlier request of this step may have changed the order of words.
+      // An earlier request in this step may have changed the word order.
       bool is_low_first = low_word_first[entry];
       executor_->with_world([&](world::World& world) {
         is_low_first = world.device(targets[entry].device).register_bank()->low_word_first();
@@ -171,7 +171,7 @@ void Performance::perform(const CommandStep& step) {
     std::string what;
     executor_->with_world([&](world::World& world) {
       const Device& device = world.device(entry.device);
-      message = window_message(device, entry.text);  // uses the current order of words
+      message = window_message(device, entry.text);  // uses the present word order
       what = "command " + device.name() + ": " + entry.text + place.on_line;
     });
     if (step.answer.silence) {
@@ -196,7 +196,7 @@ void Performance::perform(const ExpectStep& step) {
   std::vector<std::string> expected;
   std::vector<std::string> came;
   std::vector<std::string> details;
-  std::size_t next = 0;  // the next of the values that were read
+  std::size_t next = 0;  // index of the next value that was read
   for (const ExpectStep::Entry& entry : step.entries) {
     const Target& target = entry.target;
     std::string reported;

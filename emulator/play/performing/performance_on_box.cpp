@@ -168,7 +168,7 @@ std::optional<Failure> Performance::OnBox::attempt(const Step* step, const std::
   return std::nullopt;
 }
 
-/// Sends the stop before it reports the failure.
+/// Sends the stop command before reporting the failure.
 Failure Performance::OnBox::fail(const StepError& error) {
   const SimTime at = performance_.executor_->now();
   std::vector<std::string> frames = box_.last_frames();
@@ -220,7 +220,7 @@ void Performance::OnBox::use_line(const TextStep& step) {
   due_ = performance_.executor_->now();
 }
 
-/// Performs a step that only reads values. Later steps do not depend on such a step.
+/// Performs a step that only reads values, on which later steps do not depend.
 void Performance::OnBox::look(const std::function<void()>& at) {
   try {
     at();
@@ -229,7 +229,8 @@ void Performance::OnBox::look(const std::function<void()>& at) {
   }
 }
 
-/// A value that changes while it is read cannot be compared, because the moment of reading is not exact.
+/// A value that changes while it is being read cannot be compared, because the exact moment of reading is
+/// unknown.
 void Performance::OnBox::expect(const ExpectStep& step) {
   for (const ExpectStep::Entry& entry : step.entries)
     if (!entry.target.is_value) require_reachable(entry.target.device, step.via);
@@ -315,7 +316,7 @@ void Performance::OnBox::wait(const WaitStep& step) {
   Executor& executor = *performance_.executor_;
   const SimTime deadline = performance_.moment_in(step.within);
   const Moment write = box_.last_write();
-  SimTime not_yet = write.latest;  // the condition was not true at this time
+  SimTime not_yet = write.latest;  // the last time at which the condition was not true
   bool is_first = true;
   while (true) {
     const SimTime asked = executor.now();

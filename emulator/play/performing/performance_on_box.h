@@ -1,5 +1,6 @@
-// A performance whose controllers are real. Nothing is known about them except their answers: names become
-// requests, waits become polls, and everything that needs the world is done by a rig or a person, or skipped.
+// A performance with real controllers. Only their answers provide information about them: names become
+// requests, waits become polls, and everything that would need the world is done by a rig or a person, or is
+// skipped.
 #pragma once
 
 #include <cstdint>
@@ -30,7 +31,7 @@ class Performance::OnBox {
   friend struct StepOnBox;
   class Asking;
 
-  /// A step cannot be executed. If later steps depend on what it would have changed, they are skipped, too.
+  /// Thrown if a step cannot be executed. If later steps depend on its effect, they are also skipped.
   struct Skip : std::runtime_error {
     Skip(const std::string& why, bool are_later_ones_too)
         : std::runtime_error(why), cuts(are_later_ones_too) {}

@@ -36,7 +36,7 @@ std::string text_of_value(double value) {
   return {digits.data(), std::to_chars(digits.begin(), digits.end(), value).ptr};  // the shortest text
 }
 
-/// Compares registers or reals. A value that an image leaves out has the factory value.
+/// Compares registers or reals. A value that is missing from an image has the factory value.
 template <class Values>
 void compare_values(const Values& present, const Values& wanted, std::vector<std::string>& lines) {
   using Map = std::map<std::string, typename Values::value_type::second_type>;
@@ -80,7 +80,7 @@ std::vector<std::string> lines_in(const std::string& text) {
   return lines;
 }
 
-/// Compares blocks. A block that only one image has is reported as a whole.
+/// Compares blocks. A block that exists in only one image is reported as a whole.
 void compare_blocks(const NamedBlocks& present, const NamedBlocks& wanted, std::vector<std::string>& lines) {
   std::map<std::string, std::pair<const SharedText*, const SharedText*>> both;
   for (const auto& [kind, entries] : present) {
@@ -101,7 +101,7 @@ void compare_blocks(const NamedBlocks& present, const NamedBlocks& wanted, std::
   }
 }
 
-/// Returns the differences, a line for each.
+/// Returns the differences, one per line.
 std::vector<std::string> differences(const NvImage& present, const NvImage& wanted) {
   std::vector<std::string> lines;
   const auto has_other_model = present.model != wanted.model;
@@ -143,7 +143,7 @@ void Performance::perform(const ClearStep& step) {
     }
     std::erase_if(faults_, [&](const auto& fault) {
       if (fault.first != step.name) return false;
-      world.clear_fault(fault.second);  // also clears one that ended at once
+      world.clear_fault(fault.second);  // also clears a fault that has already ended
       return was_there = true;
     });
   });
@@ -180,7 +180,7 @@ void Performance::perform(const ProgramStep& step) {
 }
 
 void Performance::perform(const MemoryStep& step) {
-  // The image is made here, not on the world's thread, because a large memory takes time.
+  // The image is created here, not on the world's thread, because a large memory takes time.
   LateImage kept;
   executor_->with_world(
       [&](world::World& world) { kept = world.device(step.device).memory()->content_now(); });

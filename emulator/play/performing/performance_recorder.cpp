@@ -25,7 +25,7 @@ world::RecordedFailure recorded_failure(const ScenarioResult& result) {
   if (!result.failure) return {};
   world::RecordedFailure failed{
       .what = result.failure->what, .at = result.failure->at, .scenario = result.name};
-  // If a condition does not hold, its values follow.
+  // If a condition is false, its values follow.
   const std::size_t values = result.failure->came.find("  (");
   if (values != std::string::npos) failed.what += result.failure->came.substr(values + 1);
   if (result.steps.empty()) return failed;
@@ -43,7 +43,7 @@ PerformanceRecorder::PerformanceRecorder(world::World& world, world::RecordingHe
 }
 
 void PerformanceRecorder::begin() {
-  // Finishes the recording before this one, so that its file is free.
+  // Finishes the previous recording, so that its file can be used again.
   spool_.reset();
   const auto log = [](const std::string&) {};  // the end of the scenario reports an interruption
   spool_ = std::make_unique<world::RecordingSpool>(

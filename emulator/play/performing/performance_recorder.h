@@ -10,17 +10,17 @@
 namespace understudy::emulator::play {
 
 /// A recording cannot go back in time. When the scenario returns to an earlier state, or is a branch that
-/// begins in one, the recording starts again from that state's snapshot. It therefore always leads from that
-/// state to the end.
+/// begins in such a state, the recording starts again from the snapshot of that state. Therefore, it always
+/// leads from that state to the end.
 class PerformanceRecorder final : public Observer {
  public:
-  /// Begins with `header`, which must be for the world's power-up. The caller removes the file. Throws
+  /// Begins with `header`, which must be for the world at power-up. The caller removes the file. Throws
   /// GrowingFileError.
   PerformanceRecorder(world::World& world, world::RecordingHeader header, std::string path);
 
   void world_restored(std::size_t steps) override;
   void step_over() override;
-  /// Writes ScenarioResult::recording. Throws GrowingFileError if the recording is incomplete.
+  /// Sets ScenarioResult::recording. Throws GrowingFileError if the recording is incomplete.
   void finish(ScenarioResult& result) override;
 
  private:

@@ -1,4 +1,4 @@
-// Performs steps over lines of text.
+// Performs steps that use lines of text.
 #include <string>
 #include <vector>
 
@@ -12,11 +12,11 @@ void Performance::perform(const TextStep& step) {
   moment_in(step.within);  // throws if that is beyond the end of simulated time
   const world::LinesWanted wanted{.lines = step.lines.value_or(std::vector<std::string>()),
                                   .is_answer = step.text.has_value()};
-  // Without an expected answer, the step is over when the device has received the line.
+  // Without an expected answer, the step ends when the device has received the line.
   if (!step.lines) return executor_->send_text(step.line, *step.text);
   std::vector<std::string> lines = executor_->exchange_text(step.line, step.text, wanted, step.within);
   if (lines == wanted.lines) return;
-  // Showing one line too many is enough. On a busy machine, more may have arrived by now.
+  // Showing one unexpected line is enough. On a busy machine, more lines may have arrived by now.
   if (lines.size() > wanted.lines.size() + 1) lines.resize(wanted.lines.size() + 1);
   const std::string expected = world::lines_text(wanted.lines);
   const std::string came = world::lines_text(lines);

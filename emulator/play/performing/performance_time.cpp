@@ -1,4 +1,4 @@
-// Performs steps that let time pass, or check values without using the line.
+// Performs steps in which time passes, or which check values without using the line.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -26,7 +26,7 @@ namespace understudy::emulator::play {
 
 namespace {
 
-/// The registers that a condition names, as a host has read them.
+/// The registers in a condition, with the values that a host has read.
 class PolledRegisters final : public world::NameResolver, public world::ValueSource {
  public:
   explicit PolledRegisters(const world::KnownDevices& known) : known_(known) {}
@@ -222,12 +222,12 @@ void Performance::perform(const ResetPeaksStep&) {
   executor_->with_world([&](world::World&) { world_observers_->peaks.reset(); });
 }
 
-/// Waits for the end of the command. Returns false if it has not ended by then.
+/// Waits for the end of the command. Returns false if it has not ended by the deadline.
 bool Performance::wait_for_command(SimTime deadline) {
   const auto is_over = [&](world::World&) {
     return world_observers_->spans.violation() || command_->exit_code();
   };
-  // A command in simulated time ends between two ticks.
+  // In simulated time, a command ends between two ticks.
   const auto next_poll = [&](Tick done) {
     return command_->exit_code() ? done + 1 : world_observers_->spans.next_poll(done);
   };
@@ -241,7 +241,7 @@ std::optional<Failure> Performance::finish_with_command() {
     wait_for_command(kForever);
   } catch (const StepError& error) {
     return explain_failure(error);
-  } catch (const ExecutionAborted&) {  // the clock stands, or the command was stopped: all steps are over
+  } catch (const ExecutionAborted&) {  // the clock or the command was stopped: all steps have ended
   }
   return std::nullopt;
 }

@@ -28,9 +28,9 @@ namespace {
 using Checkpoint = std::shared_ptr<const Performance::Checkpoint>;
 using Checkpoints = std::map<std::string, Checkpoint>;
 
-constexpr std::string_view kBranch = " / ";  // between the name of a scenario and that of a branch
+constexpr std::string_view kBranch = " / ";  // separates the names of a scenario and a branch
 
-/// Returns true if a step compares something with what was expected.
+/// Returns true if a step compares something with an expected value.
 struct Judges {
   bool operator()(const WriteStep& step) const { return !step.answer.is_good(); }
   bool operator()(const CommandStep& step) const { return !step.answer.is_good(); }
@@ -43,7 +43,7 @@ struct Judges {
   bool operator()(const auto&) const { return false; }
 };
 
-/// The observers of one performance.
+/// The observers of a performance.
 class Observers {
  public:
   Observers(Performance& performance, const std::vector<ObserverMaker>& makers) : performance_(performance) {
@@ -87,7 +87,7 @@ class Run {
 
   std::unique_ptr<Executor> make_executor() const { return options_.make_executor(scenario_); }
 
-  /// Performs the steps from power-up, or from a checkpoint.
+  /// Performs the steps, beginning at power-up or at a checkpoint.
   void perform(const std::string& name, const Steps& steps, const Checkpoint& begin, Checkpoints known) {
     const std::size_t number = results_.size();
     results_.push_back(result_called(name));
@@ -154,7 +154,7 @@ class Run {
  private:
   struct Fork {
     const ForkStep* step = nullptr;
-    Checkpoint begin;  // null if it was not reached
+    Checkpoint begin;  // null if the state was not reached
     Checkpoints known;
   };
 
@@ -171,7 +171,7 @@ class Run {
     }
   }
 
-  /// Continues from the state of options_.begin, if there is one. Returns how many steps have been executed.
+  /// If there is an options_.begin, continues from its state. Returns how many steps have been executed.
   std::size_t go_on(Performance& performance, Observers& observers, ScenarioResult& result) const {
     if (!options_.begin) return 0;
     result = options_.begin->played;
@@ -180,7 +180,7 @@ class Run {
     return result.steps.size();
   }
 
-  /// The scenario lasts until the command has ended, unless a step is about that.
+  /// The scenario lasts until the command has ended, unless a step waits for its end.
   void finish_with_command(Performance& performance, const Steps& steps, ScenarioResult& result) const {
     const bool has_end = std::ranges::any_of(
         steps, [](const Step& step) { return std::holds_alternative<CommandEndStep>(step.what); });
@@ -196,7 +196,7 @@ class Run {
     result.simulated += played.end - played.begin;
   }
 
-  /// Returns true if a step that judges something was executed.
+  /// Returns true if a step that checks something was executed.
   static bool has_judged(const Steps& steps, const ScenarioResult& result) {
     for (std::size_t i = 0; i < result.steps.size(); ++i)
       if (result.steps[i].skipped.empty() && std::visit(Judges{}, steps[i].what)) return true;

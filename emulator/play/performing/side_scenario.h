@@ -1,5 +1,5 @@
-// Runs a scenario on a bench whose lines belong to another host program: it acts on the world from outside,
-// and checks it at the same time.
+// Runs a scenario on a bench whose lines belong to another host program. The scenario acts on the world from
+// outside, and checks it at the same time.
 #pragma once
 
 #include <atomic>
@@ -22,9 +22,9 @@
 
 namespace understudy::emulator::play {
 
-/// Loads the only case of a scenario file for that bench. Throws FileError, including for a step that belongs
-/// to the host because it uses a line, or that would disturb the world of another program because it goes
-/// back in time.
+/// Loads a scenario file with a single case for that bench. Throws FileError, including for a step that uses
+/// a line (which belongs to the host), or that goes back in time (which would disturb the other program's
+/// world).
 Scenario load_side_scenario(ModelList models, const std::string& path, const world::Bench& bench,
                             const std::string& save_below = "");
 
@@ -33,22 +33,22 @@ void require_steps_beside_host(const Scenario& scenario);
 
 class SideScenario {
  public:
-  /// Starts when the daemon runs. `over` is called at the end, on the daemon's thread; if the daemon ends
-  /// first, the scenario is abandoned. The scenario must outlive this object, and the world must not be used
-  /// elsewhere while it exists. With `host_time`, it acts while the host sleeps. The executor of `options` is
-  /// replaced.
+  /// The scenario starts when the daemon runs. `over` is called at its end, on the daemon's thread; if the
+  /// daemon ends first, the scenario is given up. The scenario must outlive this object, and the world must
+  /// not be used elsewhere while this object exists. With `host_time`, the scenario acts while the host
+  /// sleeps. The executor in `options` is replaced.
   SideScenario(const Scenario& scenario, serve::Daemon& daemon, std::function<void()> over,
                serve::HostTime* host_time = nullptr, RunOptions options = {});
   ~SideScenario();
   SideScenario(const SideScenario&) = delete;
   SideScenario& operator=(const SideScenario&) = delete;
 
-  /// Asks the scenario to end soon. Must be called on the daemon's thread.
+  /// Asks the scenario to end soon. Call this on the daemon's thread.
   void give_up();
 
   // --- after the scenario is over ------------------------------------------------------------------
   bool was_given_up() const { return was_given_up_; }
-  /// Throws the exception that ended the scenario, if there was one.
+  /// Throws the exception that ended the scenario, if any.
   const std::vector<ScenarioResult>& results() const;
 
  private:

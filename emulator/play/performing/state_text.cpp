@@ -50,8 +50,8 @@ std::string registers_text(const Device& device) {
   return text;
 }
 
-/// Returns true if the register of an input still shows the earlier level, because the device reads its
-/// inputs only in a tick.
+/// Returns true if an input's register still shows the earlier level, because the device reads its inputs
+/// only in ticks.
 bool is_read_later(const Device& device, const TerminalView& view, std::int64_t level) {
   if (view.kind != TerminalRow::Kind::digital_in || !device.powered()) return false;
   const RegisterBank* const bank = device.register_bank();

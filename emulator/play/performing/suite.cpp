@@ -20,8 +20,8 @@ namespace understudy::emulator::play {
 
 namespace {
 
-// The threads may be this many cases ahead of the first unfinished one. A slow case therefore does not hold
-// up the others at once, and results do not pile up without limit.
+// The threads may be this many cases ahead of the first unfinished case. So a slow case does not immediately
+// hold up the others, and the number of waiting results is limited.
 constexpr std::size_t kAhead = 256;
 
 /// The state that the threads share.
@@ -47,7 +47,7 @@ class CaseQueue {
     }
   }
 
-  /// Waits for the next case in order and reports it. Returns false after the last one.
+  /// Waits for the next case in order and reports it. Returns false after the last case.
   bool report_next(const std::function<void(const CaseId&, std::vector<ScenarioResult>)>& report) {
     std::unique_lock lock(mutex_);
     is_first_over_.wait(lock, [&] { return entries_.empty() ? is_last_taken_ : entries_.front().is_over; });
@@ -76,7 +76,7 @@ class CaseQueue {
     std::exception_ptr error{};
   };
 
-  /// Returns the next case. The entry does not move in memory until it is reported.
+  /// Returns the next case. Its entry does not move in memory until the case is reported.
   Entry* take() {
     std::unique_lock lock(mutex_);
     has_room_.wait(lock, [&] { return is_last_taken_ || entries_.size() < kAhead; });
@@ -126,7 +126,7 @@ void run_suite(const NextCase& next, const std::function<Play()>& make_play, int
   CaseQueue queue(next);
   std::vector<std::jthread> threads;
   const auto stop_at_end = [&queue](void*) { queue.stop(); };
-  // If anything throws, the threads must stop too.
+  // If anything throws, the threads must also stop.
   const std::unique_ptr<void, decltype(stop_at_end)> guard(&queue, stop_at_end);
   add_threads(threads, std::max(jobs, 1), [&] { queue.work(make_play); });
   while (queue.report_next(report)) {

@@ -19,7 +19,7 @@ void SpanWatch::on_tick(Tick) {
     try {
       if (world::is_true(span.condition, values_) != span.is_never) continue;
       explained = world::explain(span.condition, values_);
-    } catch (const std::runtime_error& error) {  // no result; the caller must not see this
+    } catch (const std::runtime_error& error) {  // no result, which the caller must not notice
       explained = error.what();
     }
     violation_ = {
@@ -46,7 +46,7 @@ void ConditionHistory::on_tick(Tick tick) {
   bool holds = false;
   try {
     holds = world::is_true(condition_, values_);
-  } catch (const std::runtime_error&) {  // the step that waits for it will report it
+  } catch (const std::runtime_error&) {  // the step that waits for the condition will report this
   }
   if (holds != (state_.changes.size() % 2 != 0)) state_.changes.push_back(tick);
 }

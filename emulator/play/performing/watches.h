@@ -1,4 +1,4 @@
-// Watches a world at every tick while a scenario runs.
+// Watches a world in every tick while a scenario runs.
 #pragma once
 
 #include <optional>
@@ -19,7 +19,7 @@ class SpanWatch final : public world::TickWatcher {
     std::string name;
     world::Expression condition;
     bool is_never = false;
-    std::string place;  // "feed.yaml:12", where it was opened
+    std::string place;  // "feed.yaml:12", where the span was opened
   };
   struct Violation {
     SimTime at{0};
@@ -36,11 +36,11 @@ class SpanWatch final : public world::TickWatcher {
   void on_tick(Tick tick) override;
   Tick next_poll(Tick done) const override;
   void open(Span span) { spans_.push_back(std::move(span)); }
-  /// Returns false if no span of that name is open.
+  /// Returns false if no span with that name is open.
   bool close(const std::string& name);
 
   bool is_empty() const { return spans_.empty(); }
-  /// Returns the first violation. Nothing is checked after it.
+  /// Returns the first violation, after which nothing is checked.
   const std::optional<Violation>& violation() const { return violation_; }
 
   const std::vector<Span>& save() const { return spans_; }
@@ -54,22 +54,22 @@ class SpanWatch final : public world::TickWatcher {
   std::optional<Violation> violation_;
 };
 
-/// Records the ticks at which a condition was true, from the moment when it is added to the world.
+/// Records the ticks in which a condition was true, beginning when this object is added to the world.
 class ConditionHistory final : public world::TickWatcher {
  public:
   /// The observations so far.
   struct State {
-    std::vector<Tick> changes;  // true from the first tick, false from the second one, and so on
+    std::vector<Tick> changes;  // true from the first one on, false from the second one on, and so on
     Tick last = 0;
   };
 
-  /// `values` must outlive it.
+  /// `values` must outlive this object.
   ConditionHistory(world::Expression condition, const world::Probes& values)
       : condition_(std::move(condition)), values_(values) {}
 
   void on_tick(Tick tick) override;
   Tick next_poll(Tick done) const override { return values_.next_change(condition_, done); }
-  /// Returns the first tick from `begin` on at which the condition was true.
+  /// Returns the first tick, from `begin` on, in which the condition was true.
   std::optional<Tick> first_from(Tick begin) const;
 
   const State& save() const { return state_; }

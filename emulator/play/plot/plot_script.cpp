@@ -28,7 +28,7 @@ constexpr int kPlotPanelGap = 34;
 constexpr int kPositionHeight = 230;
 constexpr int kPanelHeight = 140;
 constexpr int kPlotRowHeight = 20;
-constexpr double kRowsBetween = 1.5;  // the distance between rows of bits, which are 1 high
+constexpr double kRowsBetween = 1.5;  // the distance between rows of bits, whose height is 1
 constexpr std::size_t kMaxStretches = 3000;
 constexpr int kPlotColours = 8;
 constexpr const char* kColourOf[kPlotColours] = {"#0969da", "#bc4c00", "#1a7f37", "#8250df",
@@ -37,7 +37,7 @@ constexpr const char* kColourOf[kPlotColours] = {"#0969da", "#bc4c00", "#1a7f37"
 constexpr const char* kPosition = ".position";
 constexpr const char* kPulses = ".pulses";
 
-/// Quotes a text for gnuplot, which takes it literally in single quotes.
+/// Quotes a text for gnuplot, which interprets texts in single quotes literally.
 std::string in_quotes(const std::string& text) {
   std::string quoted = "'";
   for (const char c : one_line(text)) quoted += c == '\'' ? std::string("''") : std::string(1, c);
@@ -101,11 +101,11 @@ std::vector<PlotPanel> panels_of(const TraceTable& table, std::span<const std::s
   return panels;
 }
 
-/// Returns a column as data for gnuplot, with time in seconds.
+/// Returns a column as data for gnuplot, with the time in seconds.
 std::string data_of(const TraceTable& table, std::size_t column) {
   Envelope envelope(kMaxStretches);
   for (std::size_t i = 0; i < table.ticks.size(); ++i) {
-    // Rows between two changes are left out.
+    // Rows between two changes are omitted.
     if (i > 0) envelope.add(table.ticks[i] - 1, table.columns[column][i - 1]);
     envelope.add(table.ticks[i], table.columns[column][i]);
   }
@@ -118,7 +118,7 @@ std::string data_of(const TraceTable& table, std::size_t column) {
   return text + "END\n";
 }
 
-/// Returns the colour of a column. All columns of an axis have the same one.
+/// Returns the colour of a column. All columns of an axis have the same colour.
 std::string colour_of(const TraceTable& table, std::size_t column) {
   const auto axis_of = [](const std::string& name) { return name.substr(0, name.rfind('.')); };
   std::vector<std::string> axes;
@@ -131,7 +131,7 @@ std::string colour_of(const TraceTable& table, std::size_t column) {
   return kColourOf[(found == axes.end() ? 0 : found - axes.begin()) % kPlotColours];
 }
 
-/// Returns the range from the minimum to the maximum of a panel's columns, and a little more.
+/// Returns the range from the minimum to the maximum of the columns in a panel, with a margin.
 std::string range_of(const TraceTable& table, const PlotPanel& panel) {
   double min = table.columns[panel.columns.front()].front();
   double max = min;
@@ -144,8 +144,8 @@ std::string range_of(const TraceTable& table, const PlotPanel& panel) {
   return "set yrange [" + world::number_text(scale.low) + ":" + world::number_text(scale.high) + "]\n";
 }
 
-/// Returns true if a machine has followed all pulses, so that its pulses show nothing that its position does
-/// not.
+/// Returns true if a machine has followed all pulses, so that the pulses show nothing that the position does
+/// not show.
 bool is_followed(const TraceTable& table, std::size_t column) {
   const std::string& name = table.names[column];
   const std::string position = name.substr(0, name.rfind('.')) + kPosition;

@@ -16,7 +16,7 @@ namespace understudy::emulator::play {
 
 namespace {
 
-/// Removes the text up to `end`, and `end` itself, and returns it.
+/// Removes the text up to `end`, and `end` itself. Returns the text before `end`.
 std::string_view take_until(std::string_view& text, char end) {
   const std::size_t at = text.find(end);
   const std::string_view part = text.substr(0, at);

@@ -1,4 +1,4 @@
-// Reads traces from CSV or VCD, in the form that this program writes.
+// Reads traces in CSV or VCD, in the form that this program writes.
 #pragma once
 
 #include <cstddef>
@@ -17,12 +17,12 @@ struct TraceTable {
   std::vector<std::vector<double>> columns;  // one per name, each as long as `ticks`
 };
 
-/// Both throw FileError that names the line.
+/// Both functions throw FileError, which contains the line number.
 TraceTable parse_csv_trace(std::string_view text, const std::string& name);
 TraceTable parse_vcd_trace(std::string_view text, const std::string& name);
 
-/// Chooses the format by the file's ending, .csv or .vcd. Throws FileError if the text is not valid, or if
-/// the file cannot be read or has no rows.
+/// Determines the format from the file's ending, .csv or .vcd. Throws FileError if the text is not valid, or
+/// if the file cannot be read or has no rows.
 TraceTable read_trace(const std::string& path);
 
 }  // namespace understudy::emulator::play

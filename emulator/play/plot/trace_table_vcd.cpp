@@ -87,7 +87,7 @@ class VcdReader {
   }
 
   void read_change(std::string_view word) {
-    if (word.starts_with("$")) return;  // the changes inside $dumpvars and similar keywords count too
+    if (word.starts_with("$")) return;  // the changes within $dumpvars and similar keywords also count
     if (word.front() == '#') {
       end_row();
       Tick tick = 0;

@@ -16,7 +16,7 @@ namespace understudy::emulator::play {
 namespace {
 
 constexpr std::size_t kMaxDigits = 15;
-constexpr std::int64_t kMaxCounted = INT64_MAX / 2;  // the difference of two amounts is counted too
+constexpr std::int64_t kMaxCounted = INT64_MAX / 2;  // the difference between two amounts is also counted
 
 struct AmountUnit {
   std::string_view name;

@@ -1,5 +1,5 @@
-// Evenly spaced values of a range, as whole counts of its finest digit and as text: 0.5 to 2.5, 1ms to 20ms,
-// 500mV to 2V. They are exact; nothing is rounded.
+// Evenly spaced values in a range, both as integer counts of the finest digit and as text: 0.5 to 2.5, 1ms to
+// 20ms, 500mV to 2V. They are exact; nothing is rounded.
 #pragma once
 
 #include <cstdint>
@@ -12,8 +12,8 @@ namespace understudy::emulator::play {
 /// A number with or without a unit, as it was written.
 struct Amount {
   enum class Kind : std::uint8_t { number, duration, voltage } kind = Kind::number;
-  std::int64_t digits = 0;  // all digits, without the point
-  int decimals = 0;         // how many digits follow the point
+  std::int64_t digits = 0;  // all digits, without the decimal point
+  int decimals = 0;         // the number of decimal places
   std::int64_t unit = 1;    // nanoseconds or millivolts
 };
 /// Parses "12", "-0.25", "1.5s" or "300mV". Returns nothing for any other text, or for more than 15 digits.
@@ -21,15 +21,15 @@ std::optional<Amount> parse_amount(std::string_view text);
 /// Returns "a number", "a duration" or "a voltage".
 std::string_view kind_name(Amount::Kind kind);
 
-/// The scale in which amounts of one kind are counted.
+/// The scale for counting amounts of one kind.
 class AmountScale {
  public:
   explicit AmountScale(Amount::Kind kind) : kind_(kind) {}
   Amount::Kind kind() const { return kind_; }
-  /// Makes the scale fine enough for an amount of its kind.
+  /// Refines the scale so that it can represent an amount of the same kind.
   void include(const Amount& amount);
-  /// Returns nothing if 64 bits cannot hold the count, or if the amount is not a whole number of nanoseconds
-  /// or millivolts.
+  /// Returns nothing if the count does not fit in 64 bits, or if the amount is not a whole number of
+  /// nanoseconds or millivolts.
   std::optional<std::int64_t> count_of(const Amount& amount) const;
   /// Returns the count of one unit in the last included digit.
   std::int64_t finest() const { return finest_; }

@@ -21,7 +21,7 @@ namespace understudy::emulator::play {
 namespace {
 
 constexpr std::uint64_t kMaxCases = 1'000'000'000'000;
-constexpr std::uint64_t kTypical = 1000;  // the number of cases that represent all others
+constexpr std::uint64_t kTypical = 1000;  // how many cases represent all others
 
 /// Returns an object without parameters, because none has a value while the cases are read.
 const Parameters& no_parameters() {
@@ -47,7 +47,7 @@ std::vector<std::string> CaseTable::common_parameters(const world::YamlFields& r
   return known;
 }
 
-/// Adds a row's values. The first row may introduce names; every other row has the same ones.
+/// Adds the values in a row. The first row may introduce names; all other rows must have the same names.
 void CaseTable::add_values(const world::YamlFields& row, std::vector<std::string>& known) {
   row.require_map();
   for (const auto& [name, value] : row.entries()) {
@@ -140,7 +140,7 @@ Case CaseTable::at(std::uint64_t number) const {
     made.values[first + i].second = variation.value(number % variation.count());
     number /= variation.count();
   }
-  // Drawn values depend on the case's other values, not on the number of cases.
+  // Drawn values depend on the other values in the case, not on the number of cases.
   std::optional<std::uint64_t> of_others;
   for (std::size_t i = 0; i < variations_.size(); ++i) {
     if (!variations_[i].is_free()) continue;
@@ -178,7 +178,7 @@ std::vector<std::uint64_t> CaseTable::typical() const {
     std::uint64_t number = rows_.empty() ? 0 : i % rows_.size();
     for (const Variation& variation : variations_) {
       const std::uint64_t values = variation.count();
-      // If there are too many values to use every one, they are picked evenly from the first to the last.
+      // If there are too many values to use all of them, they are picked evenly from the first to the last.
       const std::uint64_t chosen = values <= count ? i % values : i * ((values - 1) / (count - 1));
       const bool is_last = values > count && i + 1 == count;
       number = number * values + (is_last ? values - 1 : chosen);

@@ -1,5 +1,5 @@
-// Numbers the cases of a scenario: each row of `cases`, or each option of a `choice`, with each combination
-// of the values of `vary`. The cases are never listed, so there may be any number of them.
+// Numbers the cases of a scenario: each row of `cases`, or each option of a `choice`, combined with all
+// values of `vary`. The cases are never listed, so their number is not limited.
 #pragma once
 
 #include <cstdint>
@@ -14,29 +14,30 @@
 
 namespace understudy::emulator::play {
 
-/// The parameter that names the option of a `choice`.
+/// The parameter that contains the option of a `choice`.
 inline constexpr std::string_view kOptionParameter = "option";
 
 class CaseTable {
  public:
-  /// Reads the cases. `seed` replaces the file's own seed, also for drawn values. Throws FileError.
+  /// Reads the cases. `seed` replaces the file's own seed, including that for drawn values. Throws FileError.
   CaseTable(const world::YamlFields& root, std::optional<std::uint64_t> seed);
 
   /// Returns 1 for a file with neither `cases` nor `vary`.
   std::uint64_t size() const { return size_; }
   bool is_varied() const { return !variations_.empty(); }
-  /// Returns the choice whose options are the cases, or an empty text. The first value of each case is then
-  /// its option.
+  /// Returns the choice whose options are the cases, or an empty text. In that case, the first value of each
+  /// case is its option.
   const std::string& choice() const { return choice_; }
-  /// Returns a case by its number. The last entry of `vary` changes fastest, the row slowest.
+  /// Returns a case by its number. The last entry of `vary` changes fastest, and the row changes slowest.
   Case at(std::uint64_t number) const;
-  /// Returns the place in the file of that parameter's value in that case, for diagnostics.
+  /// Returns the place of that parameter's value for that case in the file, for diagnostics.
   world::YamlFields field_of(std::uint64_t number, const std::string& name) const;
-  /// Returns the place in the file of the case as a whole.
+  /// Returns the place of the whole case in the file.
   world::YamlFields place_of(std::uint64_t number) const;
 
-  /// Returns cases that have each row and each listed value at least once, and both ends and some more values
-  /// of each range. It returns all cases if there are few, and hardly more than necessary if there are many.
+  /// Returns cases that together contain each row, each listed value, and, for each range, both ends and some
+  /// intermediate values. If there are few cases, returns all of them; if there are many, returns hardly more
+  /// than necessary.
   std::vector<std::uint64_t> typical() const;
 
  private:

@@ -1,4 +1,4 @@
-// Reads steps that control the order of others: snapshot, restore, fork, repeat, for, include.
+// Reads steps that control the order of other steps: snapshot, restore, fork, repeat, for, include.
 #include <cstdint>
 #include <string>
 #include <utility>

@@ -33,14 +33,14 @@ using When = Disturbance::When;
 
 constexpr std::string_view kInject = "inject";
 
-/// The fields of a fault that determine when it acts. A fault without them is given a moment.
+/// The fields of a fault that determine when it takes effect. A fault without them is assigned a moment.
 constexpr std::array<std::string_view, 7> kMoments{"at", "nth", "from", "to", "when", "every", "chance"};
 
 bool is_drawn(const world::YamlFields& field) {
   return field.is_map() && (field.has("between") || field.has("one_of"));
 }
 
-/// Replaces the drawn values in a step by texts, in the order written.
+/// Replaces the drawn values in a step with texts, in the order in which they are written.
 template <typename TextOf>
 world::YamlFields drawn_step(const world::YamlFields& step, const TextOf& text_of) {
   std::size_t number = 0;
@@ -168,8 +168,8 @@ void HuntPlan::read_entry(const world::YamlFields& field, StepsReader& reader) {
   entries_.push_back(std::move(entry));
 }
 
-/// Finds out which moments an entry may have. The command of a `host` step runs while the scenario waits in
-/// it, so a disturbance before that step waits for its moment.
+/// Determines which moments an entry may have. The command of a `host` step runs while the scenario waits in
+/// that step, so a disturbance before the step waits for its moment.
 void HuntPlan::read_ways(Entry& entry, StepsReader& reader) {
   entry.at_step = entry.first;
   entry.ways = {When::here};
@@ -209,7 +209,7 @@ void HuntPlan::read_ways_of_fault(Entry& entry, StepsReader& reader) {
   }
 }
 
-/// Reads the step with both ends of its ranges, and with each value of its lists.
+/// Reads the step with both ends of its ranges, and with each value in its lists.
 void HuntPlan::check_values(const Entry& entry, StepsReader& reader) const {
   const auto read_with = [&](std::size_t which, std::uint64_t place) {
     reader.read_apart(drawn_step(entry.step, [&](const world::YamlFields&, std::size_t i) {
@@ -237,7 +237,7 @@ world::YamlFields HuntPlan::step_of(const Disturbance& disturbance) const {
 std::vector<world::YamlFields> HuntPlan::steps_of(const Disturbance& disturbance) const {
   std::vector<world::YamlFields> steps;
   if (disturbance.when == When::late) {
-    constexpr SimTime kMore = std::chrono::seconds(1);  // for a wait that begins at the moment
+    constexpr SimTime kMore = std::chrono::seconds(1);  // for a wait that begins at that moment
     const SimTime moment(disturbance.moment);
     const std::string text = "{ wait: { until: time >= " + format_duration(moment) +
                              ", within: " + format_duration(moment + kMore) + " } }";

@@ -1,4 +1,4 @@
-// Declares the keys of `hunt`: what may happen to a scenario, and what must hold then.
+// The keys of `hunt`: what may happen to a scenario, and which conditions must then remain true.
 #pragma once
 
 #include <array>
@@ -44,7 +44,7 @@ inline constexpr world::Schema kDrawnFaultSchema = world::keys_schema(kDrawnFaul
 
 // --- may -----------------------------------------------------------------------------------------
 inline constexpr world::Schema kMaxTimesSchema = world::integer_schema(1, 100);
-/// The steps that may happen, and what may accompany them.
+/// The steps that may occur, and the keys that may accompany them.
 inline constexpr std::size_t kDisturbingSteps = 9;
 inline constexpr std::array kMayKeys{
     world::Key{"inject", "A fault. It is injected at any time, unless its fields say when.",

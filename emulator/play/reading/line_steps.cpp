@@ -48,7 +48,7 @@ Answer read_answer(StepsReader& reader, const world::YamlFields& step) {
   return answer;
 }
 
-/// Reads `via` of a step about these devices.
+/// Reads `via` in a step that uses these devices.
 Via read_via_of(const StepsReader& reader, const world::YamlFields& step,
                 const std::vector<std::size_t>& devices) {
   const auto field = step.find(kViaKey.key);
@@ -95,7 +95,7 @@ std::vector<std::pair<std::string, world::YamlFields>> require_registers(const w
   return entries;
 }
 
-constexpr std::size_t kMaxBytes = 1024;  // in one step
+constexpr std::size_t kMaxBytes = 1024;  // per step
 
 std::vector<std::uint8_t> read_bytes(const world::YamlFields& field) {
   const std::string text = field.text();

@@ -34,7 +34,7 @@ std::vector<std::pair<std::string, world::YamlFields>> require_entries(const wor
   return entries;
 }
 
-/// Returns the text that the message of a refusal must contain. For `true`, any message will do.
+/// Returns the text that the message of a refusal must contain. For `true`, any message is accepted.
 std::string refusal_text(const world::YamlFields& field) {
   const std::string text = field.text();
   if (text == "false" || text.empty()) {
@@ -150,7 +150,7 @@ void read_one_program(StepsReader& reader, const world::YamlFields& step, const 
     if (const auto refused = step.find("refused")) program.refused = refusal_text(*refused);
   });
   program.device = reader.trial().device(field, name);
-  // The field holds the path of a listing, or the listing itself if it has several lines.
+  // The field contains the path of a listing, or, if it has several lines, the listing itself.
   std::string text = "program " + name;
   if (field.text().find('\n') != std::string::npos) {
     program.text = field.text();

@@ -47,7 +47,7 @@ class NoNames final : public world::NameResolver {
   }
 };
 
-/// Provides parameters as names in an expression. A handle is the name's number in the order of the text.
+/// Provides parameters as names in an expression. The handle of a name is its index in the order of the text.
 class Numbers final : public world::NameResolver, public world::ValueSource {
  public:
   explicit Numbers(const Parameters& parameters) : parameters_(parameters) {}
@@ -82,7 +82,7 @@ std::string_view trimmed(std::string_view text) {
   return text;
 }
 
-/// Returns true for a single word that has no meaning in expressions yet.
+/// Returns true for a single word that does not already have a meaning in expressions.
 bool is_name(const std::string& name) {
   try {
     world::Lexer lexer(name);
@@ -135,7 +135,7 @@ std::string Parameters::evaluated(std::string_view written) const {
 }
 
 std::string Parameters::apply(const std::string& written) const {
-  constexpr std::size_t kLongest = 1'000'000;  // bytes; a few short lines could otherwise grow without limit
+  constexpr std::size_t kLongest = 1'000'000;  // bytes; otherwise, short lines could expand without limit
   std::string made;
   std::size_t at = 0;
   for (;;) {

@@ -1,5 +1,5 @@
-// Replaces ${...} in a scenario file with parameters and loop variables, or with small expressions that use
-// them: ${speed}, ${speed * 2}, ${takes + 5ms}. `$${` stands for a plain `${`.
+// Replaces ${...} in a scenario file with parameters, loop variables, or small expressions that contain them:
+// ${speed}, ${speed * 2}, ${takes + 5ms}. `$${` stands for a literal `${`.
 #pragma once
 
 #include <map>
@@ -15,11 +15,11 @@ namespace understudy::emulator::play {
 class Parameters final : public world::ScalarRule {
  public:
   Parameters() = default;
-  /// Contains the parameters of `outer`, which must outlive this object, and its own parameters.
+  /// Contains its own parameters and those of `outer`, which must outlive this object.
   explicit Parameters(const Parameters& outer) : outer_(&outer) {}
   Parameters& operator=(const Parameters&) = delete;
 
-  /// Throws NameError if the name is not valid, or is taken.
+  /// Throws NameError if the name is not valid or already exists.
   void define(const std::string& name, const std::string& value);
   /// Throws NameError or ExpressionError.
   std::string apply(const std::string& written) const override;
@@ -28,7 +28,7 @@ class Parameters final : public world::ScalarRule {
   const std::string* find(std::string_view name) const;
   std::vector<std::string> names() const;
   bool was_used(const std::string& name) const { return used_.contains(name); }
-  /// Returns which of its own parameters a text uses. Throws as apply() does.
+  /// Returns which of these parameters a text uses. Throws the same errors as apply().
   std::set<std::string, std::less<>> used_in(const std::string& written) const;
 
  private:

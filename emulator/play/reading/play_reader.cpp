@@ -47,19 +47,19 @@ namespace understudy::emulator::play {
 
 namespace {
 
-/// Returns true if the file is below the folder, after all links have been followed.
+/// Returns true if the file is below the folder, after resolving all links.
 bool is_below(const std::string& path, const std::string& folder) {
   namespace fs = std::filesystem;
   std::string target = path;
   try {
     target = output_target(path);
   } catch (const OutputError&) {
-    // A later check refuses such a path.
+    // A later check refuses this path.
   }
   const fs::path file = fs::weakly_canonical(fs::absolute(target));
   const fs::path top = fs::weakly_canonical(fs::absolute(folder.empty() ? "." : folder));
   const auto [at_top, at_file] = std::mismatch(top.begin(), top.end(), file.begin(), file.end());
-  // A path with a slash at its end has an empty last component.
+  // If a path ends with a slash, its last component is empty.
   return at_top == top.end() || (at_top->empty() && std::next(at_top) == top.end());
 }
 
@@ -88,14 +88,14 @@ void read_firmwares(const world::YamlFields& fields, world::Bench& bench) {
   }
 }
 
-/// Makes a trial bench. The bench itself has been checked, but a memory may not suit it, and another firmware
-/// may have fewer names.
+/// Creates a trial bench. The bench itself has been checked, but a memory may not match it, and a different
+/// firmware may have fewer names.
 Trial make_trial(const world::YamlFields& root, world::Bench& bench) {
   const std::string key = root.has("firmware") ? "firmware" : "bench";
   const world::YamlFields field = root.at(key);
   try {
     serve::read_memories(bench, "");
-    // A scenario must not change the memory files; `save` writes others.
+    // A scenario must not change the memory files; `save` writes to other files.
     for (world::DeviceSetup& device : bench.devices) device.nv_path.clear();
     return Trial(bench);
   } catch (const SettingError& error) {
@@ -145,8 +145,8 @@ std::string PlayReader::written_name() const {
   return "";
 }
 
-/// Defines the case's values, and the defaults of all other parameters. A default may use what is defined
-/// before it.
+/// Defines the values of the case, and the defaults of all other parameters. A default may use parameters
+/// that are defined before it.
 void PlayReader::define_all(std::uint64_t number, const Case& which, Parameters& parameters) const {
   const auto define = [&](const auto& field, const std::string& name, const std::string& value) {
     try {
@@ -170,8 +170,8 @@ void PlayReader::define_all(std::uint64_t number, const Case& which, Parameters&
   }
 }
 
-/// Requires that every parameter is used. An unused parameter may mean that a different one was written in
-/// its place.
+/// Requires that all parameters are used. An unused parameter may mean that a different name was written by
+/// mistake.
 void PlayReader::require_all_used(std::uint64_t number, const Case& which,
                                   const Parameters& parameters) const {
   const auto fail = [&](const std::string& name, const world::YamlFields& field) {
@@ -192,7 +192,7 @@ void PlayReader::require_all_used(std::uint64_t number, const Case& which,
   }
 }
 
-/// Returns the name of the file or scenario, with the values that distinguish this case from the others.
+/// Returns the name of the file or scenario, with the values that distinguish this case from other cases.
 std::string PlayReader::name_with(const Case& which, const Parameters& parameters) const {
   std::string name = std::filesystem::path(file_.path).stem().string();
   const std::string written = written_name();
@@ -235,7 +235,7 @@ world::Bench PlayReader::read_its_bench(const world::YamlFields& root) const {
   return bench;
 }
 
-/// Sets the option of `choice` on every device that has that choice, unless the bench sets it there.
+/// Sets the option of `choice` in all devices that have that choice, except where the bench sets it.
 void PlayReader::choose(std::uint64_t number, world::Bench& bench) const {
   const std::string& id = cases_.choice();
   if (id.empty()) return;
@@ -303,7 +303,7 @@ Scenario PlayReader::read_case(std::uint64_t number, const Case& which) {
   });
   all.attempt([&] { read_command(root, parameters, scenario); });
   all.throw_if_any();
-  // Without the command, it is unknown which parameters it uses.
+  // Without the command, it is not known which parameters the command uses.
   const auto is_of_command = [](const Step& step) {
     return std::holds_alternative<CommandEndStep>(step.what);
   };
@@ -318,7 +318,7 @@ Scenario PlayReader::read_case(std::uint64_t number, const Case& which) {
   return scenario;
 }
 
-/// Puts the case's values into the command's words and its environment.
+/// Inserts the case's values in the words and the environment of the command.
 void PlayReader::read_command(const world::YamlFields& root, const Parameters& parameters,
                               Scenario& scenario) const {
   for (const std::string& word : file_.command) {
@@ -337,9 +337,9 @@ void PlayReader::read_command(const world::YamlFields& root, const Parameters& p
   }
 }
 
-/// Checks the paths that a case saves: they must be in the folder for saved files, and nothing else may use
-/// them. A case may save a path twice, but two cases may not share one, because several may run at the same
-/// time.
+/// Checks the paths that a case saves. They must be in the folder for saved files, and nothing else may use
+/// them. A case may save a path twice, but two cases must not save the same path, because they may run at the
+/// same time.
 void PlayReader::require_own_paths(const StepsReader& steps, Scenario& scenario) {
   FileClaims claims;
   claims.add(scenario.files);

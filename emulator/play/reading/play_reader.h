@@ -1,4 +1,5 @@
-// Reads one play of a scenario file: a bench and steps, with its cases. A file has one, or a list of `plays`.
+// Reads one play of a scenario file, which is a bench and steps, with its cases. A file contains either one
+// play, or a list of `plays`.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +27,7 @@ struct FilePlays {
   std::optional<std::uint64_t> seed;  // replaces the file's own seed
   std::vector<std::string> command;   // see ReadingOptions
   FileReading reading;
-  /// The files that earlier cases save. Set only while all cases are read.
+  /// The files that earlier cases save. This is set only while all cases are being read.
   std::optional<std::vector<FileClaim>> saved_before{};
   /// The file's own parameters that a play has used.
   std::set<std::string> used_parameters{};
@@ -34,16 +35,16 @@ struct FilePlays {
 
 class PlayReader {
  public:
-  /// Reads a file that is one play.
+  /// Reads a file that consists of one play.
   PlayReader(const world::YamlFields& root, FilePlays& file);
-  /// Reads one of several plays; `common` is the part of the file that applies to all of them. Throws
+  /// Reads one of several plays. `common` is the part of the file that applies to all plays. Throws
   /// FileError.
   PlayReader(const world::YamlFields& play, const world::YamlFields& common, FilePlays& file);
 
   const CaseTable& cases() const { return cases_; }
   Case case_of(std::uint64_t number) const;
   std::string name_of(std::uint64_t number) const;
-  /// The name without any case's values; empty if the file's name applies.
+  /// The name without the values of a case. It is empty if the play has the name of the file.
   std::string written_name() const;
   /// Reads a case and checks everything in it. Throws FileError.
   Scenario read(std::uint64_t number);
@@ -59,7 +60,7 @@ class PlayReader {
   void read_command(const world::YamlFields& root, const Parameters& parameters, Scenario& scenario) const;
   void require_own_paths(const StepsReader& steps, Scenario& scenario);
 
-  world::YamlFields own_;   // as written
+  world::YamlFields own_;   // as written in the file
   world::YamlFields root_;  // includes the common part of the file
   FilePlays& file_;
   bool is_one_of_several_ = false;

@@ -107,7 +107,7 @@ class ScenarioFile::Reader {
     diagnostics.throw_if_any();
   }
 
-  /// Returns the scenario of a case, and the number of the case in that scenario.
+  /// Returns the index of the scenario to which a case belongs, and the number of the case within it.
   std::pair<std::size_t, std::uint64_t> find(std::uint64_t number) const {
     const auto behind = std::upper_bound(first_.begin(), first_.end(), number);
     const auto play = static_cast<std::size_t>(behind - first_.begin()) - 1;
@@ -124,14 +124,14 @@ class ScenarioFile::Reader {
       }
       take(std::move(scenario));
     } catch (const FileError& error) {
-      // The error may occur in only one case, so the message names it.
+      // The error may occur in this case only, so the message contains its name.
       const Case which = play.cases().at(number);
       all.add(error, which.values.empty() ? "" : "  " + to_text(which));
     }
   }
 
   Scenario read_one(PlayReader& play, std::uint64_t number) {
-    // Cases that are read one by one, like those of `vary`, are never all in memory.
+    // Cases that are read one by one, like those of `vary`, are never in memory at the same time.
     if (play.cases().is_varied() || !file_.saved_before) {
       file_.reading.steps = 0;
       file_.reading.bytes = 0;
@@ -150,9 +150,9 @@ class ScenarioFile::Reader {
 
   world::YamlFields root_;
   FilePlays file_;
-  world::Diagnostics head_;  // errors outside the cases
+  world::Diagnostics head_;  // errors that do not belong to a case
   std::vector<PlayReader> plays_;
-  std::vector<std::uint64_t> first_{0};  // the first case of each scenario, and the end
+  std::vector<std::uint64_t> first_{0};  // the first case of each scenario, followed by the total
 };
 
 ScenarioFile::ScenarioFile(const std::string& text, const std::string& path, const ReadingOptions& options,
@@ -219,7 +219,7 @@ FileKind kind_of_file(const std::string& path) {
   const world::YamlFields root = world::YamlFields::parse(
       *text, path, "file",
       "a bench (`lines:`), a scenario (`bench:` and `steps:`) or a model (`registers:`)");
-  // The user may have forgotten the other key.
+  // The user may have forgotten the second key.
   const bool is_of_model = root.has("registers") || root.has("model");
   if (is_of_model && !root.has("lines")) return FileKind::model;
   if (root.has("plays")) return FileKind::scenario;

@@ -1,5 +1,5 @@
-// Reads scenario files (YAML, docs/scenarios.md): one scenario for each row of `cases` and each combination
-// of the values of `vary`, or a single scenario if it has neither.
+// Reads scenario files (YAML, docs/scenarios.md): one scenario for each row of `cases` combined with all
+// values of `vary`. Without these keys, a file contains a single scenario.
 #pragma once
 
 #include <cstdint>
@@ -17,38 +17,38 @@ namespace understudy::emulator::play {
 struct SharedReading;  // shared_reading.h
 
 struct ReadingOptions {
-  /// The files that a scenario saves must be below this folder, or below the scenario's own folder if it is
-  /// empty, because a scenario may come from an unknown author.
+  /// The files that a scenario saves must be below this folder, or, if it is empty, below the scenario's own
+  /// folder, because the author of a scenario may be unknown.
   std::string save_below{};
-  std::optional<std::uint64_t> seed{};  // replaces the scenarios' own seeds
-  /// The words of the command that runs with each case; they may contain ${...}. Empty: no command.
+  std::optional<std::uint64_t> seed{};  // replaces the seeds in the scenarios
+  /// The words of the command that runs with each case. They may contain ${...}. Empty: no command.
   std::vector<std::string> command{};
 };
 
-/// A scenario file whose cases are read one at a time, because there may be more than fit into memory. Its
-/// devices must be of the shared models; paths in it are relative to its own folder.
+/// A scenario file whose cases are read one at a time, because there may be more cases than fit in memory.
+/// Its devices must have one of the shared models. Paths in the file are relative to its own folder.
 class ScenarioFile {
  public:
   /// Reads the file, but none of its cases. `shared` must outlive this object. Throws FileError.
   ScenarioFile(const std::string& path, const ReadingOptions& options, SharedReading& shared);
-  /// Reads a text. `path` stands for the file in messages and paths.
+  /// Reads a text. In messages and for relative paths, `path` is used as the file's path.
   ScenarioFile(const std::string& text, const std::string& path, const ReadingOptions& options,
                SharedReading& shared);
   ~ScenarioFile();
   ScenarioFile(const ScenarioFile&) = delete;
   ScenarioFile& operator=(const ScenarioFile&) = delete;
 
-  /// Returns the number of cases; it is 1 without `cases` and `vary`.
+  /// Returns the number of cases, which is 1 without `cases` and `vary`.
   std::uint64_t size() const;
   bool is_varied() const;
-  // These two read one case, counted from 0. They check only what they need.
+  // These two functions read one case, counted from 0, and check only what they need.
   Case case_of(std::uint64_t number) const;
   std::string name_of(std::uint64_t number) const;
   /// Reads a case and checks everything in it. Throws FileError.
   Scenario read(std::uint64_t number);
-  /// Reads all cases and passes them to `take` one by one. Of the cases that `vary` makes, it reads only
-  /// typical ones, which together contain each listed value, and both ends and some intermediate values of
-  /// each range. Throws FileError with all mistakes.
+  /// Reads all cases and passes them to `take` one by one. For `vary`, it reads only typical cases, which
+  /// together contain each listed value, and both ends and some intermediate values of each range. Throws
+  /// FileError with all mistakes.
   void check(const std::function<void(Scenario)>& take);
 
  private:
@@ -56,14 +56,14 @@ class ScenarioFile {
   std::unique_ptr<Reader> reader_;
 };
 
-/// Returns the scenarios of ScenarioFile::check(): all cases of a file, or typical ones. Nothing has been
+/// Returns the scenarios of ScenarioFile::check(): all cases of a file, or typical cases. Nothing has been
 /// run, but everything in the scenarios has been checked. Throws FileError.
 std::vector<Scenario> load_scenarios(ModelList models, const std::string& path,
                                      const std::string& save_below = "");
-/// Like the above, for one of several scenarios that share the files they read.
+/// The same, for one of several scenarios that use the same files.
 std::vector<Scenario> load_scenarios(const std::string& path, const std::string& save_below,
                                      SharedReading& shared);
-/// Like the above, from a text.
+/// The same, for a text.
 std::vector<Scenario> parse_scenarios(ModelList models, const std::string& text, const std::string& path,
                                       const std::string& save_below = "");
 
@@ -71,8 +71,8 @@ std::vector<Scenario> parse_scenarios(ModelList models, const std::string& text,
 enum class FileKind : std::uint8_t {
   bench,
   scenario,
-  steps,  // for other scenarios to include
-  model,  // used by benches, which refer to it by its path (docs/import.md)
+  steps,  // to be included by other scenarios
+  model,  // for benches, which refer to it by its path (docs/import.md)
 };
 /// Determines the kind of a file from its keys. Throws FileError if the file cannot be read.
 FileKind kind_of_file(const std::string& path);

@@ -1,4 +1,4 @@
-// Declares the keys of a scenario file and the schemas of their values. step_rows.h has the kinds of steps.
+// The keys of a scenario file and the schemas of their values. The kinds of steps are in step_rows.h.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@ namespace understudy::emulator::play {
 inline constexpr std::array<const world::Schema*, 2> kBenchAlternatives{&world::kText,
                                                                         &world::kInlineBenchSchema};
 inline constexpr world::Schema kBenchOrFileSchema = world::any_of_schemas(kBenchAlternatives);
-/// A play's changes to the file's bench need not be a bench on their own.
+/// The changes of a play to the bench of the file need not be a complete bench.
 inline constexpr world::Schema kBenchPartSchema = world::part_schema(world::kInlineBenchSchema);
 inline constexpr std::array<const world::Schema*, 2> kBenchPartAlternatives{&world::kText, &kBenchPartSchema};
 inline constexpr world::Schema kBenchOrPartSchema = world::any_of_schemas(kBenchPartAlternatives);
@@ -81,7 +81,7 @@ inline constexpr world::Key kVaryKey{
 inline constexpr world::Key kHuntKey{"hunt", "The disturbances that `hunt` tries, and what must hold.",
                                      &kHuntSchema};
 
-/// A play has the keys of a scenario. It can omit `bench`, and everything else that the file provides for all
+/// A play has the keys of a scenario. It may omit `bench` and all other keys that the file specifies for all
 /// plays.
 inline constexpr std::array kPlayKeys{
     world::Key{kNameKey.key, "A sentence that describes the play, different in each play.", &world::kText},

@@ -1,4 +1,5 @@
-// Warns about a scenario that can run but looks wrong, in the programs of its bench and of its steps.
+// Warns about a scenario that can run, but that contains programs (in its bench or its steps) that look
+// wrong.
 #pragma once
 
 #include <vector>
@@ -8,7 +9,7 @@
 
 namespace understudy::emulator::play {
 
-/// Returns the warnings in the order of the bench and of the steps.
+/// Returns the warnings in the order of the bench and the steps.
 std::vector<FileError::Diagnostic> warnings_of(const Scenario& scenario);
 
 }  // namespace understudy::emulator::play

@@ -1,5 +1,5 @@
-// Shares files among the scenarios of one run. Many scenarios name the same bench and the same files of
-// steps; each file is read, and the bench checked, only once.
+// Shares files among the scenarios of a run. Many scenarios refer to the same bench and the same step files.
+// Each file is read, and each bench checked, only once.
 #pragma once
 
 #include <map>
@@ -12,8 +12,8 @@ namespace understudy::emulator::play {
 
 struct SharedReading {
   ModelList models;                                   // the models that devices may have
-  std::map<std::string, world::Bench> benches;        // by path, as it is spelled in messages
-  std::map<std::string, world::YamlFields> included;  // the steps of files, by path
+  std::map<std::string, world::Bench> benches;        // by path, spelled as in messages
+  std::map<std::string, world::YamlFields> included;  // the steps in files, by path
 };
 
 }  // namespace understudy::emulator::play

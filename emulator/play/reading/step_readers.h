@@ -1,4 +1,4 @@
-// The readers of single kinds of steps, for the table in step_rows.cpp.
+// The readers for individual kinds of steps, used by the table in step_rows.cpp.
 #pragma once
 
 #include <cstddef>
@@ -11,19 +11,19 @@ namespace understudy::emulator::play {
 
 class StepsReader;
 
-// These are in line_steps.cpp.
+// Defined in line_steps.cpp.
 void read_write(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value);
 void read_command(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value);
 void read_expect(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value);
 void read_send(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value);
 
-// These are in text_steps.cpp.
+// Defined in text_steps.cpp.
 void read_send_text(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value);
 void read_hear(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value);
-/// Returns the line that a step names, or the only line.
+/// Returns the line in a step's field, or, without the field, the only line.
 std::size_t read_line_of(const StepsReader& reader, const world::YamlFields& value);
 
-// These are in truth_steps.cpp.
+// Defined in truth_steps.cpp.
 void read_wait(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value);
 void read_advance(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value);
 void read_assert(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value);
@@ -34,7 +34,7 @@ void read_reset(StepsReader& reader, const world::YamlFields& step, const world:
 void read_host(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value);
 void read_say(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value);
 
-// These are in outside_steps.cpp.
+// Defined in outside_steps.cpp.
 void read_inputs(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value);
 void read_turn(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value);
 void read_inject(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value);
@@ -44,7 +44,7 @@ void read_program(StepsReader& reader, const world::YamlFields& step, const worl
 void read_memory(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value);
 void read_save(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value);
 
-// These are in course_steps.cpp.
+// Defined in course_steps.cpp.
 void read_snapshot(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value);
 void read_restore(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value);
 void read_fork(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value);

@@ -26,7 +26,7 @@ constexpr std::array kStepRows{
     StepRow{{"send", "Sends bytes as they are, or a line of text, and compares the reply.", &kSendSchema},
             read_send},
     StepRow{{"hear", "Expects lines that a device sends without a request.", &kHearSchema}, read_hear},
-    // These steps let time pass, or that check values without using the line.
+    // In these steps time passes, or they check values without using the line.
     StepRow{{"wait", "Waits until a condition holds.", &kWaitSchema}, read_wait},
     StepRow{{"advance", "Advances simulated time.", &world::kDuration}, read_advance},
     StepRow{{"assert", "A condition that must be true now; does not use the line.", &kAssertSchema},
@@ -69,7 +69,7 @@ constexpr std::array kStepRows{
             read_save,
             {},
             StepRow::Names::gives},
-    // These steps control the order of others.
+    // These steps control the order of other steps.
     StepRow{{"snapshot", "Saves the state under this name.", &world::kText},
             read_snapshot,
             {},

@@ -1,5 +1,5 @@
-// The kinds of steps, one row each: spelling in a file, purpose, schema of the value, and reader. A new kind
-// needs a row here, a struct in scenario.h, and its code in a performance.
+// The kinds of steps, one row each: the spelling in a file, the purpose, the schema of the value, and the
+// reader. A new kind needs a row here, a struct in scenario.h, and its code in a performance.
 #pragma once
 
 #include <array>
@@ -18,12 +18,12 @@ class StepsReader;
 
 struct StepRow {
   world::Key key;
-  /// Adds the step that `value` describes. Apart from `value`, the map `step` may have only the keys in
-  /// `beside`.
+  /// Adds the step that `value` describes. In addition to the step's own key, the map `step` may contain only
+  /// the keys in `beside`.
   void (*read)(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value);
   std::span<const world::Key> beside{};
-  /// This matters when a step cannot be read: later steps may need a name that it gives, or the step wants a
-  /// name from earlier steps that could not be read.
+  /// This is used when a step cannot be read: either later steps may need a name that this step defines, or
+  /// this step needs a name from earlier steps that could not be read.
   enum class Names : std::uint8_t { none, gives, wants } names = Names::none;
 };
 

@@ -32,7 +32,7 @@ const StepRow* find_row(std::string_view key) {
   return nullptr;
 }
 
-/// Returns the kind of a step by the first of its keys that names one, or null.
+/// Returns the kind of a step, which its first key with the name of a kind determines, or null.
 const StepRow* row_of(const world::YamlFields& step) {
   if (!step.is_map()) step.fail("expected a step, as in `- advance: 250ms`");
   for (const auto& [key, value] : step.entries()) {
@@ -50,7 +50,7 @@ const StepRow* row_of(const world::YamlFields& step) {
   entries.front().second.fail("is not a step" + suggestion(key, names));
 }
 
-/// Returns the size of a step's data without its text, for the kinds that may have a lot of data.
+/// Returns the size of a step's data, without its text, for those kinds that may contain much data.
 struct BytesOf {
   std::size_t operator()(const SendStep& step) const {
     return step.bytes.size() + (step.reply ? step.reply->size() : 0);
@@ -139,7 +139,7 @@ void StepsReader::read_here(const world::YamlFields& list, const Parameters& par
   --depth_;
 }
 
-/// Reads a step. If it cannot be read, restores the reader's state before it.
+/// Reads a step. If the step cannot be read, restores the state of the reader.
 void StepsReader::read_or_report(const world::YamlFields& step) {
   const auto before = std::tuple(parameters_, into_, paths_.size(), depth_);
   const auto outer = std::pair(may_lack_name_, has_failed_);

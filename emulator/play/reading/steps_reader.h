@@ -1,5 +1,5 @@
-// Turns the steps of a scenario file into the list that is run. Loops, tables and includes are unrolled, and
-// everything is checked on the way.
+// Converts the steps of a scenario file to the list of steps that is run. Loops, tables and includes are
+// unrolled, and everything is checked.
 #pragma once
 
 #include <optional>
@@ -20,12 +20,12 @@
 
 namespace understudy::emulator::play {
 
-/// State that the cases of a file share.
+/// The state that the cases of a file share.
 struct FileReading {
   static constexpr int kMaxSteps = 100'000;  // for all cases together
   /// The maximum size of the texts and messages of all steps, in bytes.
   static constexpr std::size_t kMaxBytes = std::size_t{64} << 20;
-  static constexpr int kDeepest = 32;  // loops, forks and includes within each other
+  static constexpr int kDeepest = 32;  // nesting depth of loops, forks and includes
   int steps = 0;
   std::size_t bytes = 0;
   SharedReading& shared;
@@ -44,20 +44,21 @@ class StepsReader {
  public:
   StepsReader(const Trial& trial, FileReading& file, const std::string& path);
 
-  /// Reads the steps. Throws all mistakes in them. If `written` is given, adds the source of each step.
+  /// Reads the steps. Throws all mistakes in them. If `written` is not null, appends the source of each step.
   Steps read(const world::YamlFields& list, const Parameters& parameters,
              std::vector<WrittenStep>* written = nullptr);
-  /// Reads a step that needs no parameters, and whose names no other step uses. Throws all mistakes in it.
+  /// Reads a step that needs no parameters and whose names are not used by other steps. Throws all mistakes
+  /// in it.
   Steps read_apart(const world::YamlFields& step);
 
   // --- for the readers of single kinds of steps (step_rows.h) ------------------------------------
   const Trial& trial() const { return trial_; }
   const Parameters& parameters() const { return *parameters_; }
   Story& story() { return story_; }
-  /// Adds a file that a step is read from.
+  /// Adds a file from which a step is read.
   void add_file(const std::string& path, const std::string& what) { files_.push_back({path, what}); }
   const std::vector<FileClaim>& files() const { return files_; }
-  /// Adds a file that a step will write, and the position in the scenario where this is written.
+  /// Adds a file that a step will write, and the place in the scenario that specifies it.
   void add_saved(const std::string& path, const world::YamlFields& field) {
     saved_.emplace_back(path, field);
   }
@@ -71,13 +72,13 @@ class StepsReader {
     count_bytes(where, into_->back());
     if (written_ != nullptr && into_ == top_) note_written();
   }
-  /// Adds the steps of a list at this position, with other parameters.
+  /// Adds the steps of a list at this position, with different parameters.
   void read_here(const world::YamlFields& list, const Parameters& parameters);
-  /// Reads the steps of a branch, which continue the story so far. Afterwards the story is as it was before.
+  /// Reads the steps of a branch, which continue the story so far. Afterwards, the story is restored.
   Steps read_branch(const world::YamlFields& list);
   void read_included(const world::YamlFields& field);
   /// Reads a part of a step, so that an error in it does not hide errors in other parts. Returns true if
-  /// there is none.
+  /// there is no error.
   template <typename Read>
   bool attempt(const Read& read) {
     const bool is_read = diagnostics_.attempt([&] {
@@ -93,9 +94,9 @@ class StepsReader {
     has_failed_ = has_failed_ || !is_read;
     return is_read;
   }
-  /// Returns true if a part of the current step could not be read.
+  /// Returns true if part of the current step could not be read.
   bool has_failed() const { return has_failed_; }
-  /// Returns true if a step could not be read. Another round of a loop would only repeat the error.
+  /// Returns true if a step could not be read. Another iteration of a loop would only repeat the error.
   bool has_diagnostics() const { return diagnostics_.count() > 0; }
 
  private:
@@ -112,16 +113,16 @@ class StepsReader {
   Steps* into_ = nullptr;
   const Steps* top_ = nullptr;                   // the steps of the scenario, not of a branch
   std::vector<WrittenStep>* written_ = nullptr;  // the sources of the steps
-  std::optional<world::YamlFields> current_;     // the step being read
-  bool has_added_ = false;                       // the current step has already made a step
+  std::optional<world::YamlFields> current_;     // the step that is being read
+  bool has_added_ = false;                       // the current step has already added a step
   std::vector<FileClaim> files_;
   std::vector<std::pair<std::string, world::YamlFields>> saved_;
-  std::vector<std::string> paths_;  // the files that are being included at this point
+  std::vector<std::string> paths_;  // the nested files that are being included
   int depth_ = 0;
   world::Diagnostics diagnostics_;
-  bool lacks_names_ = false;    // a step that could not be read may have given names
-  bool may_lack_name_ = false;  // the current step may need one of these names
-  bool has_failed_ = false;     // a part of the current step could not be read
+  bool lacks_names_ = false;    // a step that could not be read may define names
+  bool may_lack_name_ = false;  // the current step may use one of these names
+  bool has_failed_ = false;     // part of the current step could not be read
 };
 
 }  // namespace understudy::emulator::play

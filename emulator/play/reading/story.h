@@ -1,4 +1,4 @@
-// Names that earlier steps have defined and later steps may use.
+// The names that earlier steps have defined and that later steps may use.
 #pragma once
 
 #include <map>
@@ -8,9 +8,9 @@
 
 namespace understudy::emulator::play {
 
-/// The names that are valid at one moment, and again after a restore to it.
+/// The names that are valid at a moment, and are valid again after that moment is restored.
 struct StoryMoment {
-  std::vector<std::string> faults;  // the faults in effect
+  std::vector<std::string> faults;  // the active faults
   std::vector<std::string> spans;   // the open spans
 };
 

@@ -1,4 +1,4 @@
-// Reads steps with lines of text: send (with `text`), hear.
+// Reads steps that use text lines: send (with `text`), hear.
 #include <cstddef>
 #include <string>
 #include <utility>
@@ -16,7 +16,7 @@ namespace understudy::emulator::play {
 
 namespace {
 
-constexpr std::size_t kLongestText = 1023;  // 1024 bytes with its end
+constexpr std::size_t kLongestText = 1023;  // 1024 bytes with the line ending
 
 /// Reads a line of text.
 std::string read_text(const world::YamlFields& field) {
@@ -31,7 +31,7 @@ std::string read_text(const world::YamlFields& field) {
   return text;
 }
 
-/// Reads one line, or a list of them. Returns an empty list for `nothing`.
+/// Reads one or several lines. Returns an empty list for `nothing`.
 std::vector<std::string> read_texts(const world::YamlFields& field) {
   std::vector<std::string> lines;
   if (field.is_list()) {
@@ -43,7 +43,7 @@ std::vector<std::string> read_texts(const world::YamlFields& field) {
   return lines;
 }
 
-/// Returns the number of a line that carries text.
+/// Returns the number of a line whose protocol is text.
 std::size_t read_line_of_text(const StepsReader& reader, const world::YamlFields& value) {
   const std::size_t number = read_line_of(reader, value);
   const world::Bench& bench = reader.trial().bench();

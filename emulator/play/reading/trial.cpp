@@ -43,7 +43,7 @@ std::string to_text(const Limits& limits) {
   return std::to_string(limits.low) + " to " + std::to_string(limits.high);
 }
 
-/// Returns `feeder["Logic Position X"].4` without its quotes, and other names unchanged.
+/// Returns `feeder["Logic Position X"].4` without quotes and brackets, and other names unchanged.
 std::string plain_name(const world::YamlFields& field, const std::string& written) {
   if (written.find('[') == std::string::npos) return written;
   try {
@@ -147,8 +147,7 @@ world::Expression Trial::expression(const world::YamlFields& field) const {
       field.fail("is " + world::kind_of(term.unit) + "; expected a number, or a condition");
     }
     world::Expression expression = parser.take();
-    if (expression.names.empty())
-      world::evaluate(expression, probes_);  // throws now if it never has a result
+    if (expression.names.empty()) world::evaluate(expression, probes_);  // throws if there is never a result
     return expression;
   } catch (const world::ExpressionError& error) {
     field.fail(error.what());

@@ -1,5 +1,5 @@
-// Reads steps that let time pass or check values: wait, advance, assert, always, never, end, reset, host,
-// say.
+// Reads steps in which time passes, or which check values: wait, advance, assert, always, never, end, reset,
+// host, say.
 #include <algorithm>
 #include <chrono>
 #include <cstddef>

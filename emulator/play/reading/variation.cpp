@@ -23,8 +23,8 @@ namespace understudy::emulator::play {
 
 namespace {
 
-/// Returns the result of SplitMix64's last step: every bit of the argument changes about half of the result's
-/// bits.
+/// Returns the result of SplitMix64's final step, in which every bit of the argument changes about half of
+/// the bits of the result.
 constexpr std::uint64_t stirred(std::uint64_t x) {
   x += 0x9e3779b97f4a7c15;
   x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9;
@@ -42,7 +42,7 @@ Amount amount_in(const world::YamlFields& field) {
   return *amount;
 }
 
-/// Returns the keys that an entry may have, which depend on its kind.
+/// Returns the keys that are allowed in an entry, which depend on its kind.
 const std::span<const world::Key> keys_of(const world::YamlFields& field) {
   if (field.has("from")) return kRangeKeys;
   if (field.has("between")) return kBetweenKeys;
@@ -108,7 +108,7 @@ void Variation::read_list(const world::YamlFields& list) {
   if (listed_.empty()) list.fail("is empty; expected at least one value");
 }
 
-/// Reads `from`, `to` and `step`, or the ends of `between`, which may have a step.
+/// Reads `from`, `to` and `step`, or the ends of `between`, which can also have a step.
 void Variation::read_range(bool is_drawn) {
   world::YamlFields low = field_;
   world::YamlFields high = field_;
@@ -172,7 +172,7 @@ std::string Variation::value(std::uint64_t number) const {
 }
 
 std::string Variation::drawn_for(std::uint64_t hash) const {
-  // The upper half of the product is spread evenly over all places.
+  // The upper half of the product is distributed evenly over all places.
   __extension__ using Wide = unsigned __int128;
   return value_at(static_cast<std::uint64_t>(static_cast<Wide>(stirred(hash ^ seed_)) * places_ >> 64));
 }

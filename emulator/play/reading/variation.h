@@ -1,5 +1,5 @@
-// One entry of `vary`, which gives values to a parameter: listed values, a range, or drawn values. Values are
-// computed by number, so a million values take no more memory than one.
+// An entry of `vary`, which assigns values to a parameter: listed values, a range, or drawn values. Values
+// are computed from their index, so a million values need no more memory than one.
 #pragma once
 
 #include <cstdint>
@@ -12,13 +12,13 @@
 
 namespace understudy::emulator::play {
 
-/// Returns the element with that number of a permutation of 0 to count-1 that depends only on the seed. It
-/// needs no memory.
+/// Returns the element with index `number` in a permutation of 0 to count-1 that depends only on the seed.
+/// This needs no memory.
 std::uint64_t shuffled(std::uint64_t number, std::uint64_t count, std::uint64_t seed);
 
 class Variation {
  public:
-  /// `seed` is used for drawn values if the entry has no seed of its own, or if `overrides` is true. Throws
+  /// `seed` is used for drawn values if the entry has no seed, or if `overrides` is true. Throws
   /// FileError.
   Variation(const world::YamlFields& field, std::string name, std::uint64_t seed, bool overrides);
 
@@ -29,14 +29,14 @@ class Variation {
   std::string value(std::uint64_t number) const;
   /// Returns true if it has a list of values rather than a range.
   bool has_list() const { return !listed_.empty(); }
-  /// Returns how many values a range or a list has, and one of these by its place in it.
+  /// Return how many values a range or a list contains, and the value at a place in it.
   std::uint64_t places() const { return places_; }
   std::string value_at(std::uint64_t place) const;
-  /// Returns true if the entry is not combined: one value is drawn for each case, by a hash of the case's
-  /// other values.
+  /// Returns true if the entry is not combined: for each case, one value is drawn, which is determined by a
+  /// hash of the other values in the case.
   bool is_free() const { return is_free_; }
   std::string drawn_for(std::uint64_t hash) const;
-  /// Returns true if each value is written in the file.
+  /// Returns true if all values are written in the file.
   bool is_listed() const { return !listed_.empty() && !is_drawn_; }
 
  private:
@@ -47,7 +47,7 @@ class Variation {
   std::string name_;
   world::YamlFields field_;
   std::vector<std::string> listed_;          // the list; empty if it is a range
-  AmountScale scale_{Amount::Kind::number};  // of a range, which begins at first_, in steps of step_
+  AmountScale scale_{Amount::Kind::number};  // of a range, which begins at first_ and has steps of step_
   std::int64_t first_ = 0;
   std::int64_t step_ = 1;
   std::uint64_t places_ = 0;  // how many values can be chosen

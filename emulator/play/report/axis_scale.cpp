@@ -10,7 +10,7 @@ namespace understudy::emulator::play {
 
 AxisScale exact_scale_for(double low, double high, int max_marks) {
   AxisScale scale{.low = low, .high = high, .marks = {}, .decimals = 0};
-  // This finds the smallest step of 1, 2, 5, 10, ... that needs few enough marks.
+  // This finds the smallest step of 1, 2, 5, 10, ... for which the number of marks is small enough.
   const double wanted = (high - low) / max_marks;
   double power = 1;
   int decimals = 0;

@@ -45,7 +45,7 @@ std::string share_cells(std::int64_t part, std::int64_t all) {
          std::to_string(all) + "</td>";
 }
 
-/// Returns the programs, those with the most lines that have not run first.
+/// Returns the programs. Those with the most lines that have not run come first.
 std::vector<ShownFile> shown(const world::CoverageReport& report) {
   std::vector<ShownFile> files;
   for (const auto& [path, file] : report.files) {
@@ -96,7 +96,7 @@ std::string listing_of(const ShownFile& shown) {
     number = line.number;
     rows += row_of(number, line.text, line_at(number));
   }
-  // The text may no longer exist, or may now be shorter.
+  // The text may no longer exist, or may have become shorter.
   for (auto rest = lines.upper_bound(number); rest != lines.end(); ++rest) {
     rows += row_of(rest->first, "", &rest->second);
   }

@@ -36,14 +36,14 @@ void Envelope::stay(Tick last) {
   if (stretches_.empty()) return;
   const double value = stretches_.back().last.value;
   while (stretches_.back().last.tick < last) {
-    // Only these two points are kept between the first and the last tick of a stretch.
+    // Between the first and the last tick of a stretch, only these two points are kept.
     const Tick at = stretches_.back().last.tick;
     const Tick end = origin_ + ((at - origin_) / length_ + 1) * length_ - 1;
     add(std::min(at < end ? end : at + 1, last), value);
   }
 }
 
-/// Joins pairs of stretches, which doubles their length.
+/// Merges pairs of stretches, which doubles their length.
 void Envelope::halve() {
   length_ *= 2;
   std::vector<Stretch> longer;

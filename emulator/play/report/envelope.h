@@ -1,5 +1,5 @@
-// Keeps one signal over time in a bounded number of points. If there are too many values, it keeps the first,
-// the smallest, the largest and the last of each stretch of time, each at its own time.
+// Represents a signal over time with a limited number of points. If there are too many values, it keeps the
+// first, the smallest, the largest and the last value of each stretch of time, with their own times.
 #pragma once
 
 #include <cstddef>
@@ -19,13 +19,14 @@ class Envelope {
 
   explicit Envelope(std::size_t max_stretches = 600) : max_stretches_(max_stretches) {}
 
-  /// Adds a value. Ticks ascend; a value at an earlier tick, or a second value at the last tick, is ignored.
+  /// Adds a value. Ticks must increase: a value at an earlier tick, or a second value at the last tick, is
+  /// ignored.
   void add(Tick tick, double value);
-  /// Repeats the last value at every tick up to `last`. The cost is one step per stretch.
+  /// Repeats the last value at every tick up to `last`. This costs only one operation per stretch.
   void stay(Tick last);
 
-  /// Returns the points in chronological order. While a value stays the same, only its first and last points
-  /// are kept. A line through the points is the signal, or encloses it.
+  /// Returns the points in chronological order. As long as a value does not change, only its first and last
+  /// points are kept. A line through the points either equals the signal or encloses it.
   std::vector<Point> points() const;
   /// Returns true if there were at least two different values.
   bool varies() const { return !stretches_.empty() && min_ != max_; }
@@ -42,8 +43,8 @@ class Envelope {
   void halve();
 
   std::size_t max_stretches_;
-  Tick origin_ = 0;                 // where the first stretch begins
-  Tick length_ = 1;                 // how long each stretch is
+  Tick origin_ = 0;                 // the beginning of the first stretch
+  Tick length_ = 1;                 // the length of each stretch
   std::vector<Stretch> stretches_;  // stretches in which nothing was added may be missing
   double min_ = 0;
   double max_ = 0;

@@ -36,7 +36,7 @@ std::string verdict_text(const ScenarioResult& result) {
 
 std::string id_of(std::size_t number) { return "s" + std::to_string(number + 1); }
 
-/// Writes seconds to the microsecond, with the exact time in the title.
+/// Writes seconds with microsecond resolution, and the exact time in the title.
 std::string time_cell(SimTime time) {
   constexpr double kSecond = 1e9;
   return "<td class=\"time\" title=\"" + seconds_text(time) + " s\">" +
@@ -140,7 +140,7 @@ std::string steps_text(std::span<const StepResult> steps, std::size_t first_numb
       "<th scope=\"col\" class=\"place\">where</th></tr>\n";
   for (std::size_t i = 0; i < steps.size(); ++i) {
     const StepResult& step = steps[i];
-    // When time goes back, the jump belongs to the next stretch.
+    // When time goes back, the jump is counted in the next stretch.
     const SimTime takes = std::max(step.end - step.begin, SimTime{0});
     text += std::string("<tr") + (step.has_failed ? " class=\"failed\"" : "") + "><td class=\"time\">" +
             std::to_string(first_number + i) + "</td>" + time_cell(step.begin) + time_cell(takes) + "<td>" +
@@ -157,7 +157,7 @@ std::string steps_text(std::span<const StepResult> steps, std::size_t first_numb
   return text + "</table></div>\n";
 }
 
-/// Returns the names of signals that were always on, which no picture shows.
+/// Returns the names of signals that were always on, because pictures do not show them.
 std::string always_on(const Stretch& stretch) {
   std::string names;
   for (const SeenSignal& signal : stretch.signals) {
@@ -197,7 +197,7 @@ std::string body_of(const ScenarioResult& result) {
       if (i > 0) text += "<h3>after step " + std::to_string(stretches[i].first_step) + "</h3>\n";
       const bool is_last = i + 1 == stretches.size();
       const std::size_t first =
-          i == 0 ? 0 : stretches[i].first_step;  // stretches without any time are left out
+          i == 0 ? 0 : stretches[i].first_step;  // stretches that take no time are omitted
       const std::size_t end = is_last ? result.steps.size() : stretches[i + 1].first_step;
       text += stretch_text(result, stretches[i], first, end, is_last);
     }
@@ -230,7 +230,7 @@ std::string report_page(std::span<const ScenarioResult> results, std::string_vie
            : "") +
       "</header>\n<main>\n<nav aria-label=\"scenarios\">\n<h2 class=\"unseen\">Scenarios</h2>\n" +
       list_of(results) + "</nav>\n";
-  // Failed scenarios are open; so is a single scenario.
+  // Failed scenarios are expanded, and so is a single scenario.
   for (std::size_t i = 0; i < results.size(); ++i) {
     const ScenarioResult& result = results[i];
     if (result.verdict == Verdict::not_reached) continue;

@@ -1,4 +1,4 @@
-// The parts that all report pages share.
+// The parts that all report pages have in common.
 #pragma once
 
 #include <span>
@@ -9,9 +9,9 @@
 namespace understudy::emulator::play {
 
 extern const std::string_view kPageStyle;   // CSS, for light and dark mode
-extern const std::string_view kPageScript;  // shows values under the pointer; the page is complete without it
+extern const std::string_view kPageScript;  // shows values under the pointer; not essential
 
-/// Returns a page without scripts. `main` is HTML; the other texts are escaped.
+/// Returns a page without scripts. `main` is HTML; all other texts are escaped.
 std::string plain_page(std::string_view title, std::string_view subtitle, std::string_view main,
                        std::string_view version);
 /// Returns a section with a heading and a table. All texts are escaped. Without rows, the section is empty.

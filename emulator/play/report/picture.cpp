@@ -19,11 +19,11 @@ namespace {
 
 using SignalKind = SeenSignal::Kind;
 
-// These sizes are in the picture's own units. The browser scales it to the space available.
+// These sizes are in the picture's own units. The browser scales the picture to the available space.
 constexpr double kWidth = 1100;
 constexpr double kLeft = 170;  // the position of the first moment
 constexpr double kRight = 1085;
-constexpr double kTop = 38;              // the marks of steps and of the failure are above
+constexpr double kTop = 38;              // the marks of steps and of the failure are above this
 constexpr double kNumberY = kTop - 10;   // the position of step numbers
 constexpr double kFailureY = kTop - 26;  // a separate row above the numbers
 constexpr double kLegendHeight = 24;
@@ -67,7 +67,7 @@ struct Curve {
   const SeenSignal* signal = nullptr;
   std::size_t colour = 0;
   bool is_dashed = false;
-  bool is_stepped = false;  // the value stays until the next one
+  bool is_stepped = false;  // each value lasts until the next one
 };
 
 struct Panel {
@@ -78,7 +78,7 @@ struct Panel {
   std::vector<Curve> curves;
 };
 
-/// Returns true if two signals are the same apart from where they begin.
+/// Returns true if two signals are equal except for their initial values.
 bool run_alike(const SeenSignal& a, const SeenSignal& b) {
   if (a.points.size() != b.points.size()) return false;
   for (std::size_t i = 0; i < a.points.size(); ++i) {
@@ -89,8 +89,8 @@ bool run_alike(const SeenSignal& a, const SeenSignal& b) {
   return true;
 }
 
-/// Returns panels with the positions and pulses of the axes that moved (or of all axes), the speeds of those
-/// that moved, and the duties and analog inputs that varied.
+/// Returns panels with the positions and pulses of the axes that moved (or of all axes), the speeds of the
+/// axes that moved, and the duty cycles and analog inputs that varied.
 std::vector<Panel> panels_of(const Stretch& stretch, bool with_still_axes) {
   Panel positions{.title = "position [pulses]", .height = 190, .curves = {}};
   Panel speeds{.title = "speed [pulses/s]", .height = 120, .marks = 4, .has_zero = true, .curves = {}};
@@ -235,7 +235,8 @@ class Drawing {
     y_ = bottom + kTimeHeight;
   }
 
-  /// Marks the faults that acted on messages. If several are close together, it marks only the first.
+  /// Marks the faults that affected messages. If several of them are close together, marks only the first
+  /// one.
   void add_strikes(const std::vector<SeenFrame>& frames) {
     constexpr double kApart = 4;
     double last = -kApart;
@@ -261,7 +262,7 @@ class Drawing {
     }
     if (!marks.failed_at) return;
     const double x = x_of(std::clamp(ms_of(*marks.failed_at), begin_ms_, end_ms_));
-    // The line begins below the numbers, so it crosses none of them.
+    // The line begins below the numbers, so it does not cross any of them.
     body_ += line_between(x, kTop - 6, x, bottom_, "failure");
     const bool is_far_right = x > kRight - 150;
     body_ += text_at(is_far_right ? x - 5 : x + 5, kFailureY, is_far_right ? "failed end" : "failed",
@@ -293,7 +294,7 @@ class Drawing {
     std::string text;
     const SeenSignal::Point* before = nullptr;
     for (const SeenSignal::Point& point : signal.points) {
-      // The first tick may be the one before the stretch begins.
+      // The first tick may be the one that precedes the stretch.
       const std::string x = at(std::max(ms_of(time_of(point.tick)), begin_ms_));
       if (is_stepped && before != nullptr && before->value != point.value) {
         text += " " + x + "," + plain_number(before->value - base);
@@ -321,7 +322,7 @@ class Drawing {
     }
   }
 
-  /// Draws a vertical line in each frame, so that the line does not cross a legend.
+  /// Draws a vertical line in each frame, so that it does not cross a legend.
   std::string through_frames(double x, const char* kind) const {
     std::string lines;
     for (const auto& [top, bottom] : frames_) lines += line_between(x, top, x, bottom, kind);

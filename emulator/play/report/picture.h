@@ -18,9 +18,9 @@ struct PictureMarks {
   std::string_view of;  // the scenario's name, for screen readers
 };
 
-/// Returns an SVG element with the classes that page_parts.h styles. The result is empty if nothing in the
-/// stretch varies, unless it failed. Each line has its data in `points`: milliseconds since the picture's
-/// `data-begin`, and amounts relative to the line's own `data-base`, so that the value shown under the
+/// Returns an SVG element with the classes that page_parts.h styles. Unless the stretch has failed, the
+/// result is empty if nothing in it varies. Each line has its data in `points`: milliseconds since the
+/// picture's `data-begin`, and amounts relative to the line's own `data-base`, so the value shown under the
 /// pointer is exact.
 std::string picture(const Stretch& stretch, const PictureMarks& marks);
 

@@ -12,10 +12,10 @@ namespace understudy::emulator::play {
 /// Returns "1.5s waits for a reply, 512ms".
 std::string words_of(const SeenWait& wait);
 
-/// Returns one line: "a move: what moved and switched, from 0s to 3.2s".
+/// Returns a line: "a move: what moved and switched, from 0s to 3.2s".
 std::string picture_name(const Stretch& stretch, std::string_view of);
 
-/// Returns each signal that varies, with its extremes and its last value, and the time of a failure.
+/// Returns each signal that varies, with its minimum, maximum and last value, and the time of a failure.
 std::string picture_words(const Stretch& stretch, std::optional<SimTime> failed_at);
 
 }  // namespace understudy::emulator::play

@@ -1,4 +1,4 @@
-// The observations of a scenario's run: signals over time, and the frames on its lines.
+// What was observed during the run of a scenario: signals over time, and the frames on its lines.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,7 @@ struct SeenSignal {
     position,  // the machine's position, in pulses
     pulses,    // the pulses that an axis has sent
     speed,     // the planned speed, in pulses per second
-    duty,      // the duty of an axis that drives by PWM, in percent
+    duty,      // the duty cycle of an axis in PWM mode, in percent
     voltage,   // an analog input or output, in volts
     level,     // an analog input without a unit, a group of terminals, or a count
     bit,       // an input, an output, a switch, power
@@ -25,7 +25,7 @@ struct SeenSignal {
     Tick tick = 0;
     double value = 0;
   };
-  std::vector<Point> points{};  // these include the first and the last point of the stretch
+  std::vector<Point> points{};  // including the first and the last point of the stretch
   double min = 0;
   double max = 0;
   bool varies() const { return min != max; }
@@ -38,15 +38,15 @@ struct SeenFrame {
   std::string text;        // the decoded text
   std::string bytes;       // "01 03 00 00"
   std::string remark;      // "dropped: bad CRC"; empty if there is no remark
-  bool is_struck = false;  // a fault acted on it; if there are no bytes, on a dropped or an earlier message
+  bool is_struck = false;  // affected by a fault; without bytes: a dropped or an earlier message
 };
 
-/// A wait of a host in simulated time, or several waits that lie within one dot of the picture.
+/// A wait of a host in simulated time, or several waits within one dot of the picture.
 struct SeenWait {
   std::size_t thread = 1;
   SimTime begin{0};
   SimTime end{0};
-  std::string text;  // the text of the longest wait: "waits for a reply"
+  std::string text;  // the text for the longest wait: "waits for a reply"
   SimTime longest{0};
   std::size_t count = 1;
 };
@@ -57,10 +57,10 @@ struct Stretch {
   SimTime begin{0};
   SimTime end{0};
   std::vector<SeenSignal> signals;
-  std::vector<SeenWait> waits;    // in chronological order for each thread
-  std::vector<SeenFrame> frames;  // in chronological order; if there were many, only the first and the last
+  std::vector<SeenWait> waits;    // in chronological order per thread
+  std::vector<SeenFrame> frames;  // chronological; if there are many, only the first and last
   std::size_t frames_left_out = 0;
-  std::size_t left_out_at = 0;  // the frames that were left out came before the frame with this index
+  std::size_t left_out_at = 0;  // the omitted frames precede the frame with this index
 };
 
 struct RunLog {

@@ -27,13 +27,13 @@ namespace {
 
 using SignalKind = SeenSignal::Kind;
 
-// A stretch keeps this many frames from its beginning, and as many from its end.
+// This many frames are kept from the beginning of a stretch, and as many from its end.
 constexpr std::size_t kFramesKept = 300;
 constexpr double kMillivolts = 1000;
-// Waits are joined if the picture, which has this many dots, cannot show them separately.
+// Waits are merged if the picture, which has this many dots, cannot show them separately.
 constexpr int kDots = 1000;
 
-/// Joins the waits of a thread that lie within one dot.
+/// Merges the waits of a thread that are within one dot.
 void thin(Stretch& stretch) {
   const SimTime dot = (stretch.end - stretch.begin) / kDots;
   std::map<std::size_t, std::size_t> last;  // by thread
@@ -113,7 +113,7 @@ void RunLogger::ignore_lines() {
 }
 
 void RunLogger::world_restored(std::size_t steps) {
-  ignore_lines();  // the frames that they were receiving are gone
+  ignore_lines();  // frames that were being received are lost
   end_stretch();
   watch_lines();
   stretch_.first_step = steps;
@@ -141,8 +141,8 @@ void RunLogger::on_rest(Tick last) {
   stretch_.end = std::max(stretch_.end, time_of(last));
 }
 
-/// Takes the request that a reply answers. A reply without its number, and a line of text, answers the last
-/// one.
+/// Removes and returns the request to which a reply belongs. A reply without its number, or a line of text,
+/// belongs to the last request.
 RunLogger::Request RunLogger::taken_request(const pty::CapturedPacket& reply) {
   const auto is_answered = [&](const Request& request) {
     const bool is_named = reply.last_character != 0 && !reply.is_text;
@@ -179,7 +179,7 @@ void RunLogger::add(const pty::CapturedPacket& packet) {
     frame.text = line.protocol.reply_text(line.stations, to, request.bytes, packet.bytes);
   }
   stretch_.frames.push_back(std::move(frame));
-  // Frames are removed in groups, so that a long run does not move them for each new frame.
+  // Frames are removed in groups, so that in a long run, they need not be moved for each new frame.
   if (stretch_.frames.size() < 4 * kFramesKept) return;
   const auto first = stretch_.frames.begin() + kFramesKept;
   stretch_.frames.erase(first, stretch_.frames.end() - kFramesKept);
@@ -208,7 +208,7 @@ void RunLogger::end_stretch() {
   }
   stretch.left_out_at = kFramesKept;
   thin(stretch);
-  // Bytes that are not a frame are reported once that is certain, which may be after the next frame.
+  // Bytes that are not a frame are reported when that is certain, which may be after the next frame.
   std::stable_sort(stretch.frames.begin(), stretch.frames.end(),
                    [](const SeenFrame& a, const SeenFrame& b) { return a.time < b.time; });
   const bool is_empty = stretch.begin == stretch.end && stretch.frames.empty();

@@ -1,4 +1,4 @@
-// Records the run log of a scenario's run.
+// Records the run log of a scenario.
 #pragma once
 
 #include <cstddef>
@@ -27,7 +27,7 @@ class RunLogger final : public Observer, private world::TickWatcher {
   void world_restored(std::size_t steps) override;
   /// Adds a wait of a host in simulated time.
   void add(SeenWait wait) { stretch_.waits.push_back(std::move(wait)); }
-  /// Writes ScenarioResult::run_log.
+  /// Sets ScenarioResult::run_log.
   void finish(ScenarioResult& result) override;
 
  private:
@@ -50,7 +50,7 @@ class RunLogger final : public Observer, private world::TickWatcher {
   world::Probes probes_;
   std::vector<ObservedSignal> signals_;
   std::vector<std::unique_ptr<pty::CaptureFrames>> framers_;  // one per line
-  /// The last requests, the newest last, until they are answered. They are needed to decode replies.
+  /// The last requests without an answer; the newest request is last. They are needed to decode replies.
   struct Request {
     std::size_t line = 0;
     std::uint64_t last_character = 0;

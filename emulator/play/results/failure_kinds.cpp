@@ -18,7 +18,7 @@ bool is_figure(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0
 
 bool is_hex(char c) { return is_figure(c) || (c >= 'A' && c <= 'F'); }
 
-/// Returns true if there is a byte at this place, as in frames: "C0", but not part of a longer word.
+/// Returns true if there is a byte at this place, as in frames: "C0", which is not part of a longer word.
 bool is_byte_at(std::string_view text, std::size_t at) {
   return at + 2 <= text.size() && is_hex(text[at]) && is_hex(text[at + 1]) &&
          (at == 0 || !(is_digit_or_letter(text[at - 1]) || text[at - 1] == '.')) &&
@@ -38,7 +38,7 @@ std::size_t length_of_bytes(std::string_view text, std::size_t begin) {
   return says_no_more ? end - begin : 0;
 }
 
-/// Returns the length of a hexadecimal word: a digest, or bytes after an equals sign.
+/// Returns the length of a hexadecimal word, which is a digest, or bytes after an equals sign.
 std::size_t length_of_hex(std::string_view text, std::size_t begin) {
   constexpr std::size_t kDigest = 8;
   if (begin > 0 && (is_digit_or_letter(text[begin - 1]) || text[begin - 1] == '.')) return 0;
@@ -51,7 +51,7 @@ std::size_t length_of_hex(std::string_view text, std::size_t begin) {
   return has_figure && (word.size() >= kDigest || is_behind_equals) ? word.size() : 0;
 }
 
-/// Returns the length of an escape such as "\x0d", which stands for a character that cannot be printed.
+/// Returns the length of an escape such as "\x0d", which stands for an unprintable character.
 std::size_t length_of_escape(std::string_view text, std::size_t at) {
   const bool is_one = text.substr(at).starts_with("\\x") && at + 4 <= text.size() &&
                       std::isxdigit(static_cast<unsigned char>(text[at + 2])) != 0 &&
@@ -59,7 +59,7 @@ std::size_t length_of_escape(std::string_view text, std::size_t at) {
   return is_one ? 4 : 0;
 }
 
-/// Adds a single `#` for adjacent numbers and bytes, which cannot be told apart.
+/// Adds a single `#` for adjacent numbers and bytes, because these cannot be distinguished.
 void add_sign(std::string& made) {
   if (made.ends_with("# ")) {
     made.pop_back();
@@ -68,7 +68,7 @@ void add_sign(std::string& made) {
   }
 }
 
-/// Replaces numbers with their units, and any number of bytes, by #. Keeps numbers in names (Aaxis_2,
+/// Replaces numbers with their units, and any number of bytes, with #. Keeps numbers in names (Aaxis_2,
 /// STATUS.4).
 std::string without_numbers(std::string_view text) {
   std::string made;

@@ -16,16 +16,16 @@ std::string kind_of_failure(const ScenarioResult& result);
 
 class FailureKinds {
  public:
-  static constexpr std::size_t kMax = 1000;  // failures of further kinds are counted, but not distinguished
+  static constexpr std::size_t kMax = 1000;  // failures of further kinds are counted but not distinguished
 
   struct Kind {
     std::string text;
     std::string first;  // the name of the first case of this kind
     std::uint64_t count = 0;
-    std::uint64_t varied = 0;  // how many of these come from cases that `vary` made
+    std::uint64_t varied = 0;  // how many of these are cases from `vary`
   };
 
-  /// Counts a failure and returns its kind, or null if there are too many kinds already.
+  /// Counts a failure and returns its kind, or null if there are already too many kinds.
   const Kind* add(const ScenarioResult& result);
   /// Returns the kinds in the order of their first failures.
   const std::vector<Kind>& all() const { return kinds_; }

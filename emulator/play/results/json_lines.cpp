@@ -1,4 +1,4 @@
-// Writes results as lines of JSON. If two rows are about the same case, the later one counts.
+// Writes results as JSON lines. If two rows are about the same case, the later row counts.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -74,7 +74,7 @@ class JsonLines final : public ResultsFile {
 
  private:
   static constexpr std::string_view kBeginOfRow = "{\"file\":\"";
-  // The lowest bit of a case's entry; the other bits are from its hash.
+  // The lowest bit of the entry of a case. The other bits are from its hash.
   static constexpr std::uint64_t kFailed = 1;
 
   [[noreturn]] void refuse(const std::string& why) const {
@@ -93,8 +93,8 @@ class JsonLines final : public ResultsFile {
     return line.substr(0, both) == kBeginOfRow.substr(0, both);
   }
 
-  /// Reads the earlier results, and keeps 8 bytes per row. A last line without an end is from a run that was
-  /// killed.
+  /// Reads the earlier results, and keeps 8 bytes per row. If the last line has no line ending, it is from a
+  /// run that was killed.
   void read() {
     std::ifstream before(path_, std::ios::binary);
     std::uint64_t size = 0;

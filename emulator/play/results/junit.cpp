@@ -21,7 +21,7 @@ namespace {
 
 using Verdict = ScenarioResult::Verdict;
 
-/// Returns the size of the UTF-8 character at the beginning, or 0 if XML cannot hold it.
+/// Returns the size of the UTF-8 character at the beginning of the text, or 0 if XML cannot contain it.
 std::size_t character_size(std::string_view text) {
   const auto at = [&](std::size_t i) {
     return i < text.size() ? static_cast<std::uint32_t>(static_cast<unsigned char>(text[i])) : 0U;
@@ -81,7 +81,7 @@ std::string case_text(const ScenarioResult& result) {
 
 std::string xml_escaped(std::string_view text) {
   std::string escaped;
-  // Each pass uses up at least one character.
+  // Each iteration consumes at least one character.
   for (std::size_t left = text.size(); left > 0 && !text.empty(); --left) {
     const std::size_t size = character_size(text);
     const char c = text.front();

@@ -16,15 +16,15 @@
 namespace understudy::emulator::play {
 
 /// Writes results as JUnit XML: a test suite for each file, a test case for each scenario or branch. Times
-/// are simulated seconds; the steps and the findings of the lint are in system-out. Cases from `vary` have no
-/// system-out if they passed, or failed like an earlier case. JUnit puts counts in front of the results, so
-/// the results are kept in an unnamed file until the end.
+/// are simulated seconds. The steps and the lint findings are in system-out. Cases from `vary` have no
+/// system-out if they passed, or if they failed like an earlier case. In JUnit, counts precede the results,
+/// so the results are kept in an unnamed file until the end.
 class Junit {
  public:
-  /// Throws std::system_error if there is no room for the results.
+  /// Throws std::system_error if there is no space for the results.
   Junit();
   void add(const ScenarioResult& result);
-  /// Passes the whole text to `take`, piece by piece.
+  /// Passes the whole text to `take` in pieces.
   void write(const std::function<void(std::string_view)>& take);
 
  private:
@@ -48,8 +48,8 @@ class Junit {
 
 std::string junit_text(std::span<const ScenarioResult> results);
 
-/// Escapes a text for XML, even in attributes. Characters that XML cannot hold (control characters, broken
-/// UTF-8) become U+FFFD.
+/// Escapes a text for XML, including attributes. Characters that XML cannot contain (control characters,
+/// invalid UTF-8) become U+FFFD.
 std::string xml_escaped(std::string_view text);
 
 }  // namespace understudy::emulator::play

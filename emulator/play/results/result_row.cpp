@@ -28,7 +28,7 @@ std::string verdict_word(const ScenarioResult& result) {
   return {};
 }
 
-/// Returns a number if the text is written in the JSON form, otherwise a text: 007, 1e3 and 0x10 are texts.
+/// Returns a number if the text has the form of a JSON number, otherwise a text: 007, 1e3 and 0x10 are texts.
 RowJson value_of(const std::string& text) {
   if (const auto whole = parse_integer(text); whole && std::to_string(*whole) == text) return *whole;
   if (!text.empty() && text.find_first_not_of("-.0123456789") == std::string::npos) {
@@ -50,7 +50,7 @@ std::string dumped(const RowJson& json) {
 
 RowJson or_null(const std::optional<std::string>& text) { return text ? RowJson(*text) : RowJson(nullptr); }
 
-/// Returns the seconds as a number, to the nanosecond.
+/// Returns the seconds as a number with nanosecond resolution.
 RowJson seconds_value(const std::string& seconds) { return std::strtod(seconds.c_str(), nullptr); }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Writes results as bytes, to pass them from one process to another.
+// Writes results as bytes, to pass them between processes.
 #pragma once
 
 #include <cstdint>

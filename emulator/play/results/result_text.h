@@ -18,13 +18,14 @@ std::string seconds_text(SimTime time);
 std::string verdict_line(const ScenarioResult& result);
 /// Returns a line for each step: when it began and ended, its position in the file, and its text.
 std::vector<std::string> step_lines(const ScenarioResult& result);
-/// Returns a line for each reason why steps were skipped, with the first of these steps.
+/// Returns a line for each reason why steps were skipped, with the first step that was skipped for that
+/// reason.
 std::vector<std::string> skipped_lines(const ScenarioResult& result);
-/// Returns the failed step, expectation and observation, the last frames, and the state around it. Empty if
-/// nothing failed.
+/// Returns the failed step, the expectation, the observation, the last frames, and the state at the failure.
+/// Empty if nothing failed.
 std::vector<std::string> failure_lines(const ScenarioResult& result);
 
-/// Counts results of each kind, without keeping them.
+/// Counts the results of each kind, without keeping the results.
 struct Tally {
   std::uint64_t passed = 0;
   std::uint64_t failed = 0;

@@ -1,4 +1,4 @@
-// Writes results as rows, for counting and plotting: as JSON lines (FILE.jsonl), or as a table of a database
+// Writes results as rows, for counting and plotting: as JSON lines (FILE.jsonl), or as a table in a database
 // (FILE.sqlite). A run that was killed can continue where its file ends.
 #pragma once
 
@@ -15,7 +15,8 @@
 
 namespace understudy::emulator::play {
 
-/// The columns of a row, in this order. All are texts except `parameters`, `simulated_s`, `at_s` and `seed`.
+/// The columns of a row, in this order. All of them are texts except `parameters`, `simulated_s`, `at_s` and
+/// `seed`.
 struct ResultRow {
   std::string file;
   std::string name;
@@ -26,7 +27,7 @@ struct ResultRow {
   std::optional<std::string> hash;
   std::string simulated_s;
   std::uint64_t seed = 0;
-  // Set only for a failure.
+  // These are set only for a failure.
   std::optional<std::string> kind;
   std::optional<std::string> failure;
   std::optional<std::string> at_s;
@@ -36,7 +37,7 @@ struct ResultRow {
 };
 /// `with_hash` is true if outcome_hash was requested.
 ResultRow row_of(const ScenarioResult& result, std::uint64_t made_of, bool with_hash);
-/// Returns a JSON object without a line end. Parameters that are plain numbers are written as numbers.
+/// Returns a JSON object without a line ending. Parameters that are plain numbers are written as numbers.
 std::string json_text(const ResultRow& row);
 std::string json_text_of_parameters(const ResultRow& row);
 
@@ -47,19 +48,19 @@ struct CaseKey {
   std::uint64_t made_of = 0;
 };
 
-/// has_failed() may be called on any thread, one call at a time.
+/// has_failed() may be called on any thread, but only one call at a time.
 class ResultsFile {
  public:
   virtual ~ResultsFile() = default;
-  /// Returns true if it has rows of an earlier run, which begin() would delete.
+  /// Returns true if it contains rows from an earlier run, which begin() would delete.
   virtual bool has_rows() = 0;
-  /// Empties the file. Not called if the run continues in it.
+  /// Empties the file. This is not called if the run continues in the file.
   virtual void begin() = 0;
-  /// Returns true if that case failed, false if it did not, or nothing if it has not been run before.
+  /// Returns true if the case failed, false if it did not, and nothing if it has not run before.
   virtual std::optional<bool> has_failed(const CaseKey& key) = 0;
-  /// Adds the rows of one case: all of them or none.
+  /// Adds the rows of a case: either all of them or none.
   virtual void add(std::span<const ResultRow> rows) = 0;
-  /// Makes sure that everything is in the file.
+  /// Ensures that everything is in the file.
   virtual void finish() = 0;
 };
 
@@ -67,8 +68,8 @@ inline constexpr std::string_view kJsonLinesEnding = ".jsonl";
 inline constexpr std::string_view kSqliteEnding = ".sqlite";
 
 /// Opens or creates the file; its old content stays until begin(). With `continues`, the run continues in the
-/// file, so its rows are read. All functions of the result throw GrowingFileError if a file cannot be
-/// written, or was not written by this program.
+/// file, so its rows are read. All functions of the returned object throw GrowingFileError if a file cannot
+/// be written, or was not written by this program.
 std::unique_ptr<ResultsFile> open_json_lines(const std::string& path, bool continues);
 std::unique_ptr<ResultsFile> open_sqlite(const std::string& path, bool continues);
 

@@ -24,8 +24,8 @@ namespace understudy::emulator::play {
 namespace {
 
 constexpr int kApplicationId = 0x55535459;  // "USTY" in the header of the file
-// A run that is killed loses at most the results of the last interval, and readers see results with at most
-// this delay.
+// A run that is killed loses at most the results of the last interval. Readers see results with at most this
+// delay.
 constexpr std::chrono::milliseconds kCommitEvery{250};
 
 constexpr std::string_view kTables = R"(
@@ -73,7 +73,7 @@ class SqliteResults final : public ResultsFile {
     try {
       commit();
     } catch (const GrowingFileError&) {
-      // The run ends for a different reason, which is reported.
+      // The run is ending for a different reason, which is reported.
     }
   }
   SqliteResults(const SqliteResults&) = delete;
@@ -114,7 +114,7 @@ class SqliteResults final : public ResultsFile {
   void finish() override { commit(); }
 
  private:
-  static constexpr int kPatience_ms = 10'000;  // the time to wait for a reader
+  static constexpr int kPatience_ms = 10'000;  // how long to wait for a reader
 
   struct Closing {
     void operator()(sqlite3* database) const { sqlite3_close_v2(database); }
@@ -175,7 +175,7 @@ class SqliteResults final : public ResultsFile {
     show_parameters();
   }
 
-  /// Makes the view `cases`: the table with a column for each parameter.
+  /// Creates the view `cases`: the table with an additional column for each parameter.
   void show_parameters() {
     static const std::set<std::string> taken = {"file",    "name", "branch",      "case_id",   "parameters",
                                                 "verdict", "hash", "seed",        "kind",      "failure",
@@ -204,7 +204,7 @@ class SqliteResults final : public ResultsFile {
     bind(insert_, 5, json_text_of_parameters(row));
     bind(insert_, 6, row.verdict);
     bind(insert_, 7, row.hash);
-    bind(insert_, 8, row.simulated_s);  // digits, which the type of the column turns into a number
+    bind(insert_, 8, row.simulated_s);  // digits, which the type of the column converts to a number
     sqlite3_bind_int64(insert_.get(), 9, static_cast<std::int64_t>(row.seed));
     bind(insert_, 10, row.kind);
     bind(insert_, 11, row.failure);
@@ -225,7 +225,7 @@ class SqliteResults final : public ResultsFile {
 
   std::string path_;
   std::mutex mutex_;
-  // Declared before the database, because closing the file would drop the database's own locks.
+  // Declared before the database, because closing this file first would release the database's own locks.
   std::optional<OutputFile> lock_;
   std::unique_ptr<sqlite3, Closing> database_;
   Statement insert_;

@@ -1,4 +1,4 @@
-// Identifies a case of a file by the values that `cases` and `vary` give to its parameters.
+// Identifies a case of a file by the parameter values from `cases` and `vary`.
 #pragma once
 
 #include <cstdint>
@@ -9,18 +9,19 @@
 namespace understudy::emulator::play {
 
 struct Case {
-  std::string play{};  // the name in the file, if the file has several scenarios
-  std::vector<std::pair<std::string, std::string>> values{};  // in the order written
-  bool is_varied = false;  // made by `vary`, so there may be too many to inspect each of them
+  std::string play{};  // the name within the file, if the file contains several scenarios
+  std::vector<std::pair<std::string, std::string>> values{};  // in the order of the file
+  bool is_varied = false;  // from `vary`, so there may be too many cases to inspect each of them
 };
 
-/// Returns "(speed=200, takes=3050ms)", or an empty text without values.
+/// Returns "(speed=200, takes=3050ms)", or an empty text if there are no values.
 std::string to_text(const Case& which);
 
-/// Returns a hash of the scenario's name, and of the names and values. It depends neither on their order nor
-/// on other cases, so it is the same in every shard, and does not change when cases are added to the file.
+/// Returns a hash of the scenario's name, the parameter names and the values. It depends neither on their
+/// order nor on other cases, so it is the same in every shard, and does not change when cases are added to
+/// the file.
 std::uint64_t identity_of(const Case& which);
-/// Returns the identity as 16 hexadecimal digits, the form in which users type it and results show it.
+/// Returns the identity as 16 hexadecimal digits, the form for users and for results.
 std::string identity_text(std::uint64_t identity);
 
 }  // namespace understudy::emulator::play

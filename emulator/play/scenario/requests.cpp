@@ -92,7 +92,7 @@ std::vector<Request> read_requests(std::span<const Words> entries) {
 std::vector<Request> write_requests(std::span<const Words> entries,
                                     const std::function<bool(std::size_t)>& stands_alone) {
   std::vector<Request> requests;
-  bool is_open = false;  // true if the last request may still be extended
+  bool is_open = false;  // true if the last request can still be extended
   for (std::size_t i = 0; i < entries.size(); ++i) {
     const Words& next = entries[i];
     const bool is_alone = stands_alone(i);
@@ -121,7 +121,7 @@ std::optional<world::Number> number_of(const Target& target, Value value) {
 std::optional<Value> value_for(const Target& target, world::Number number) {
   if (target.place && target.place->is_real()) return value_of_number(*target.place, number.real());
   if (number.is_whole()) return number.whole();
-  constexpr double kLargest = 9e15;  // doubles hold all whole numbers up to this one
+  constexpr double kLargest = 9e15;  // doubles represent all whole numbers up to this one exactly
   const double real = number.real();
   if (std::abs(real) > kLargest || std::floor(real) != real) return std::nullopt;
   return static_cast<Value>(real);

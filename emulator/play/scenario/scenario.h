@@ -1,5 +1,6 @@
-// A scenario is a bench with steps to run on it, checked against each other. scenario_file.h makes it, run.h
-// runs it. Loops, tables of cases, includes and parameters have been resolved, so the steps are a plain list.
+// A scenario is a bench with steps to run on it; both have been checked together. scenario_file.h creates it,
+// and run.h runs it. Loops, tables of cases, includes and parameters have been resolved, so the steps are a
+// plain list.
 #pragma once
 
 #include <cstdint>
@@ -23,14 +24,15 @@ class HuntPlan;  // emulator/play/reading/hunt_plan.h
 struct Step;
 using Steps = std::vector<Step>;
 
-/// A register or a bit as a host addresses it: by name (then `place` is set), or by its address in a table.
+/// A register or a bit as a host addresses it: by name (in this case, `place` is set), or by address in a
+/// table.
 struct Target {
   std::size_t device = 0;
-  std::string name;  // as written: "feeder.Cord_A", "feeder.0x1014"
+  std::string name;  // as written in the file: "feeder.Cord_A", "feeder.0x1014"
   std::optional<NamedPlace> place{};
   Table table = Table::holding;  // only without `place`
   std::uint16_t address = 0;     // only without `place`: the number in `table`
-  bool is_value = false;  // true for a value of a device without registers: read directly, not over the line
+  bool is_value = false;         // a value of a device without registers, read directly, not over the line
 };
 
 /// How a device must answer each request of a step: normally, with an exception, or not at all.
@@ -40,13 +42,13 @@ struct Answer {
   bool is_good() const { return !exception && !silence; }
 };
 
-/// The line on which a step talks to its devices (`via: LINE` next to the step); without a value, the first
+/// The line on which a step communicates with its devices (`via: LINE` next to the step). No value: the first
 /// line of each device.
 using Via = std::optional<std::size_t>;
 
-/// write: { feeder.Aaxis_Pulse: 32000, feeder.Aaxis_Move_INC: 1 }, with exception: 3 if the device must
-/// refuse, or reply: nothing if it must not answer. Writes over the line in this order; consecutive ascending
-/// registers share a request.
+/// write: { feeder.Aaxis_Pulse: 32000, feeder.Aaxis_Move_INC: 1 } writes over the line in this order;
+/// consecutive ascending registers are combined in one request. With exception: 3, the device must refuse;
+/// with reply: nothing, it must not answer.
 struct WriteStep {
   struct Entry {
     Target target;
@@ -57,7 +59,7 @@ struct WriteStep {
   Via via{};
 };
 
-/// expect: { feeder.Cord_A: 32000, feeder.STATUS.4: 0 } reads over the line. exception and reply are as for
+/// expect: { feeder.Cord_A: 32000, feeder.STATUS.4: 0 } reads over the line. exception and reply are as in
 /// write.
 struct ExpectStep {
   struct Entry {
@@ -69,8 +71,8 @@ struct ExpectStep {
   Via via{};
 };
 
-/// command: { cell: "MOVE X 1000" } sends the model's commands through its window, in one request each.
-/// exception and reply are as for write.
+/// command: { cell: "MOVE X 1000" } sends commands of the model through its window, one per request.
+/// exception and reply are as in write.
 struct CommandStep {
   struct Entry {
     std::size_t device = 0;
@@ -86,7 +88,7 @@ struct WaitStep {
   std::string until;
   SimTime within{0};
   std::optional<world::Tolerance> takes;
-  /// How often the names in `until` are read over the line; without it every tick is checked.
+  /// How often the names in `until` are read over the line. Without it, every tick is checked.
   std::optional<SimTime> poll;
   Via via{};  // the line on which these names are read
 };
@@ -95,17 +97,17 @@ struct AdvanceStep {
   SimTime by{0};
 };
 
-/// assert: EXPRESSION, or a list of them: checks the current values without using the line.
+/// assert: EXPRESSION, or a list of expressions: checks the present values without using the line.
 struct AssertStep {
   std::vector<std::string> expressions;
 };
 
-/// always: or never: { what: EXPRESSION, name: NAME }, or only the expression. It is checked at every tick
-/// from now on, until end: NAME or the end of the scenario.
+/// always: or never: { what: EXPRESSION, name: NAME }, or only the expression. The expression is checked in
+/// every tick from now on, until end: NAME or the end of the scenario.
 struct SpanStep {
   std::string expression;
   bool never = false;
-  std::string name;  // the expression, if no other name was given
+  std::string name;  // by default, the expression
 };
 struct EndSpanStep {
   std::string name;
@@ -124,7 +126,7 @@ struct TurnStep {
 /// inject: { stall: feeder.A, name: NAME }
 struct InjectStep {
   world::Fault fault;
-  std::string name;  // the name for `clear`; the fault as text, by default
+  std::string name;  // the name for `clear`; by default, the fault as text
 };
 /// clear: NAME, or all
 struct ClearStep {
@@ -138,7 +140,7 @@ struct PowerStep {
 };
 
 /// send: { line: rs485, bytes: 01 03 00 01 00 01 D5 CA, reply: 01 03 02 C0 01 29 84, within: 100ms }. With
-/// reply: nothing, no byte may arrive in that time; without reply any bytes are accepted.
+/// reply: nothing, no byte may arrive in that time. Without reply, any bytes are accepted.
 struct SendStep {
   std::size_t line = 0;
   std::vector<std::uint8_t> bytes;
@@ -146,10 +148,10 @@ struct SendStep {
   SimTime within = std::chrono::milliseconds(500);
 };
 
-/// send: { line: serial, text: "?PE", reply: "100", within: 100ms } sends a line of text, given without its
-/// line end. reply is one line, or a list of them, or nothing if none may arrive in that time; without reply
-/// any answer is accepted. hear: { line: serial, text: "DONE", within: 2s } expects lines that the device
-/// sends without a request since the last `send`.
+/// send: { line: serial, text: "?PE", reply: "100", within: 100ms } sends a line of text, which is written
+/// without its line ending. reply is a line, a list of lines, or `nothing` if no line may arrive in that
+/// time. Without reply, any answer is accepted. hear: { line: serial, text: "DONE", within: 2s } expects
+/// lines that the device has sent without a request since the last `send`.
 struct TextStep {
   std::size_t line = 0;
   std::optional<std::string> text;                // no value: the step only receives
@@ -161,13 +163,13 @@ struct TextStep {
 struct ProgramStep {
   std::size_t device = 0;
   std::string text;
-  std::string file{};                         // for messages; empty if the step contains the text
-  std::optional<world::InlineText> inside{};  // the place of a text that the step contains
+  std::string file{};                         // for messages; empty if the text is in the step
+  std::optional<world::InlineText> inside{};  // the place of the text, if it is in the step
   std::optional<std::string> refused{};       // the refusal must contain this text
   bool asks = true;  // true: the step fails if the program is refused; false: both outcomes are accepted
 };
 
-/// memory: { feeder: after.json }: the device's non-volatile memory must equal the file; save: writes the
+/// memory: { feeder: after.json }: the device's non-volatile memory must equal the file. save: writes the
 /// file.
 struct MemoryStep {
   enum class What : std::uint8_t { expect, save } what = What::expect;
@@ -175,8 +177,8 @@ struct MemoryStep {
   std::string file;
 };
 
-/// host: { exits: 0, within: 30s } waits for the end of the command that runs with the scenario; host: stop
-/// asks it to end first, and accepts any exit code.
+/// host: { exits: 0, within: 30s } waits for the end of the command that runs with the scenario. host: stop
+/// first asks it to end, and accepts any exit code.
 struct CommandEndStep {
   bool stops = false;
   int exits = 0;
@@ -191,8 +193,8 @@ struct RestoreStep {
   std::string name;
 };
 
-/// fork: { NAME: [ steps ], NAME: [ steps ] }: each branch starts in the state at this moment; the steps
-/// after the fork also continue from it.
+/// fork: { NAME: [ steps ], NAME: [ steps ] }: each branch starts in the present state. The steps after the
+/// fork also continue from this state.
 struct ForkStep {
   struct Branch {
     std::string name;
@@ -210,7 +212,7 @@ struct SayStep {
 };
 
 struct Step {
-  std::string file;  // the position in a file
+  std::string file;  // the place in a file
   int line = 0;
   std::string text;  // the description on one line: "write feeder.Aaxis_SVON=1"
   std::variant<WriteStep, CommandStep, ExpectStep, WaitStep, AdvanceStep, AssertStep, SpanStep, EndSpanStep,
@@ -219,19 +221,19 @@ struct Step {
       what;
 };
 
-/// One case of a scenario file. A file with a table of cases makes one for each row.
+/// A case of a scenario file. A file with a table of cases creates one scenario for each row.
 struct Scenario {
-  std::string name;  // includes the case's parameters: "a move takes its time (speed=200)"
+  std::string name;  // including the parameters of the case: "a move takes its time (speed=200)"
   std::string file;
   world::Bench bench;
-  SimTime gap{0};  // added to t3.5 between two requests of the host
+  SimTime gap{0};  // added to t3.5 between two requests from the host
   std::uint64_t seed = 0;
   Steps steps;
-  std::vector<FileClaim> files{};    // all files that it was read from, including the bench's
+  std::vector<FileClaim> files{};    // all files from which it was read, including those of the bench
   std::vector<std::string> saved{};  // paths that its steps write
   Case which{};
-  std::string choice{};                // the id in `choice`; its option is the first of the case's values
-  std::vector<std::string> command{};  // the words of ReadingOptions::command, with the case's values
+  std::string choice{};                // the id in `choice`; the option is the first value of the case
+  std::vector<std::string> command{};  // the words of ReadingOptions::command, with the values of the case
   std::vector<std::pair<std::string, std::string>> environment{};  // for the command
   std::shared_ptr<const HuntPlan> hunt{};                          // null: the file has no `hunt`
 };

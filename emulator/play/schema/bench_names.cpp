@@ -18,7 +18,7 @@ namespace understudy::emulator::play {
 namespace {
 
 /// Returns the beginning of names as a regular expression. Device names may contain a hyphen, but no
-/// character that has a meaning there.
+/// character that has a special meaning in regular expressions.
 std::string before_of(const world::KnownDevice& device, bool is_alone) {
   return is_alone ? "^(" + device.name + "\\.)?" : "^" + device.name + "\\.";
 }
@@ -48,7 +48,7 @@ class Names {
   bool is_alone_;
 };
 
-/// Escapes each character with a meaning in regular expressions.
+/// Escapes all characters that have a special meaning in regular expressions.
 std::string escaped(std::string_view text) {
   std::string made;
   for (const char letter : text) {
@@ -60,14 +60,14 @@ std::string escaped(std::string_view text) {
   return made;
 }
 
-/// Returns one expression for all names of a row's pattern, such as "VAR{}".
+/// Returns a single expression for all names of a row's pattern, such as "VAR{}".
 std::string names_of_pattern(std::string_view pattern) {
   const std::size_t hole = pattern.find("{}");
   if (hole == std::string_view::npos) return escaped(pattern);
   return escaped(pattern.substr(0, hole)) + "[A-Za-z0-9]+" + escaped(pattern.substr(hole + 2));
 }
 
-/// Returns the names of the registers that have bits, because there are too many bits to list.
+/// Returns the names of the registers that have bits. There are too many bits to list them.
 std::string registers_with_bits(const RegisterMap& map) {
   std::string all;
   for (const RegisterRow& row : map.rows()) {

@@ -88,11 +88,11 @@ class SchemaWriter {
     return made;
   }
 
-  /// Returns the schema of a step: exactly one kind, and the keys that may accompany it.
+  /// Returns the schema of a step: exactly one kind, and the keys that may accompany that kind.
   Json step() const {
     Json properties = Json::object();
     Json kinds = Json::array();
-    std::map<std::string, Json> needed;  // for each accompanying key, the kinds that it may accompany
+    std::map<std::string, Json> needed;  // for each accompanying key, the kinds with which it is allowed
     for (const StepRow& row : step_rows()) {
       properties[std::string(row.key.key)] = described(row.key);
       kinds.push_back(Json{{"required", {row.key.key}}});
@@ -110,7 +110,7 @@ class SchemaWriter {
                 {"dependencies", dependencies}};
   }
 
-  /// Returns the definition for the names of a form, in a schema for one bench.
+  /// Returns the definition for a kind of names, in a schema for a specific bench.
   static std::string definition_of(world::Schema::Of sort) {
     switch (sort) {
       case world::Schema::Of::anything: break;
@@ -137,7 +137,7 @@ class SchemaWriter {
   }
 
  private:
-  /// Describes the memory of each model, with the kinds of named texts that it holds.
+  /// Describes the memory of each model, including its kinds of named texts.
   Json memories() const {
     Json conditions = Json::array();
     for (const Model* const model : models_) {
@@ -155,7 +155,7 @@ class SchemaWriter {
 
   Json kinds_of_texts(const Model& model) const {
     Json kinds = Json::object();
-    // Only a device knows its kinds of texts.
+    // Only devices have the list of their kinds of texts.
     const std::unique_ptr<Device> device = make_device(model, DeviceSettings{});
     const PersistentMemory* const memory = std::as_const(*device).memory();
     const TextBlocks* const kept = memory == nullptr ? nullptr : memory->text_blocks();
@@ -189,7 +189,7 @@ class SchemaWriter {
     return or_parameter(Json{{"anyOf", {number, Json{{"type", "string"}, {"pattern", kWholeNumber}}}}});
   }
 
-  /// Lists words. `on` and `true` are words here, but truth values for some YAML readers.
+  /// Lists words. `on` and `true` are words here, but some YAML readers treat them as truth values.
   Json words(const world::Schema& schema) const {
     Json words = Json::array();
     for (const std::string_view word : schema.words) words.push_back(word);
@@ -221,7 +221,7 @@ class SchemaWriter {
   bool requires_ = true;  // if false, required keys are optional
 };
 
-/// Requires a scenario to have steps, or to contain several scenarios that do.
+/// Requires that a scenario has steps, or contains several scenarios that have steps.
 Json whole_scenario(const SchemaWriter& writer) {
   Json made = writer.keys(kScenarioKeys);
   made["oneOf"] = Json{{{"required", {kBenchKey.key, "steps"}}}, {{"required", {"plays"}}}};

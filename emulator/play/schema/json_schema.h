@@ -1,4 +1,4 @@
-// Writes file formats as JSON Schema (draft 7), with which editors check and complete YAML files.
+// Writes file formats as JSON Schema (draft 7), which editors use to check and complete YAML files.
 #pragma once
 
 #include <span>
@@ -15,8 +15,8 @@ std::string bench_schema(ModelList models);
 std::string scenario_schema(ModelList models);
 /// Returns the schema of another kind of file, with these keys.
 std::string file_schema(const std::string& title, std::span<const world::Key> keys);
-/// Returns the schema of scenarios for one bench: it accepts only the names of its devices, lines, axes,
-/// inputs and registers. Conditions are plain texts, which only `check` can verify.
+/// Returns the schema of scenarios for a specific bench. It accepts only the names of its devices, lines,
+/// axes, inputs and registers. Conditions are plain texts, which only `check` can verify.
 std::string scenario_schema(ModelList models, const world::Bench& bench);
 
 }  // namespace understudy::emulator::play

@@ -1,4 +1,4 @@
-// Describes a bench to observers that know nothing about its models.
+// Describes a bench for observers that have no information about its models.
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -94,7 +94,7 @@ std::string_view name_of_terminal(const Model& model, int terminal) {
   return terminal < 0 ? std::string_view() : model.terminals[static_cast<std::size_t>(terminal)].name;
 }
 
-/// Returns, for each terminal, what machines and drives use it for: "A.home", "B.servo".
+/// Returns, for each terminal, how machines and drives use it: "A.home", "B.servo".
 std::vector<std::vector<std::string>> functions_of(const Model& model, const world::World& world,
                                                    std::size_t device) {
   std::vector<std::vector<std::string>> functions(model.terminals.size());
@@ -174,8 +174,8 @@ Json axis_of(const world::World& world, std::size_t device, std::size_t place) {
   return axis;
 }
 
-/// Returns the register that makes the controller use a terminal for its function: one that the model names
-/// for its limit inputs, or a persistent switch that the manual names after the terminal
+/// Returns the register that makes the controller use a terminal for its function: a register that the model
+/// specifies for its limit inputs, or a persistent switch whose name in the manual contains the terminal
 /// (DIN2_Aaxis_UP_Limit, for DIN_2). Returns an empty text if there is none.
 std::string_view register_using(const Model& model, const TerminalRow& terminal) {
   const auto number = static_cast<int>(&terminal - model.terminals.data());
@@ -207,7 +207,7 @@ Json terminal_of(const TerminalRow& row, const std::vector<std::string>& functio
   return terminal;
 }
 
-/// Describes everything that an observer needs in order to show the device `only`, or all devices.
+/// Describes everything that an observer needs to show the device `only`, or all devices.
 ReplyTask device_message(Daemon& daemon, std::optional<std::size_t> only) {
   const Pause pause(daemon);
   const world::World& world = daemon.world();

@@ -1,4 +1,4 @@
-// Makes a daemon's control socket.
+// Creates a daemon's control socket.
 #pragma once
 
 #include <string>
@@ -7,9 +7,9 @@
 
 namespace understudy::emulator::serve {
 
-/// Makes a socket at `path`; throws ControlError if it cannot be opened there. If `path` is empty, uses a
-/// path that no other daemon uses (sockets.h). If that fails, it logs the reason, and the daemon runs without
-/// a socket.
+/// Creates a socket at `path`. Throws ControlError if it cannot be opened there. If `path` is empty, uses a
+/// path that no other daemon uses (sockets.h); if that fails, logs the reason, and the daemon runs without a
+/// socket.
 DoorMaker control_door(const std::string& path = "");
 
 }  // namespace understudy::emulator::serve

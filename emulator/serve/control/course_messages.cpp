@@ -25,13 +25,14 @@ namespace understudy::emulator::serve {
 namespace {
 
 constexpr std::size_t kMaxCurves = 256;
-constexpr std::size_t kMaxPoints = 200'000;  // the most points, for all names together
-/// Up to this amount of work, every tick is sampled; beyond it, only a few moments per dot.
+constexpr std::size_t kMaxPoints = 200'000;  // the maximum for all names together
+/// Up to this amount of work, every tick is sampled. Above it, only a few moments per dot are sampled.
 constexpr Tick kMaxCurveWork = 4'000'000;  // ticks times the weight of names and devices
 constexpr Tick kMaxProgramWork = 100'000;  // ticks times devices
 constexpr std::uint64_t kLooksADot = 8;
 
-/// Returns the interval between samples. It is the whole stretch if a watcher sees every tick anyway.
+/// Returns the interval between samples. If a watcher is notified of every tick anyway, the interval is the
+/// whole stretch.
 SimTime apart_of(const Stretch& stretch, bool is_exact) {
   const SimTime length = stretch.to - stretch.from;
   if (is_exact) return length;
@@ -62,9 +63,9 @@ void add_exchanges(std::vector<Span>& spans, const world::History& history) {
   }
 }
 
-/// Adds a span for each fault and for each time that a device has no power.
+/// Adds a span for each fault, and for each time in which a device has no power.
 void add_events(std::vector<Span>& spans, const world::History& history, SimTime end) {
-  std::map<std::string, std::size_t> under_way;  // the span's number, by the key that ends it
+  std::map<std::string, std::size_t> under_way;  // the number of the span, by the key that ends it
   const auto begin = [&](const std::string& key, const world::Event& event, const char* lane,
                          const std::string& text) {
     under_way[key] = spans.size();
@@ -108,7 +109,7 @@ void add_events(std::vector<Span>& spans, const world::History& history, SimTime
   }
 }
 
-/// Adds the waits of the threads of a simulated-time host.
+/// Adds the waits of the threads of a host in simulated time.
 void add_waits(std::vector<Span>& spans, const world::Timeline& timeline) {
   for (const world::RecordedEvent& event : timeline.events()) {
     if (event.what != world::RecordedEvent::What::wait) continue;

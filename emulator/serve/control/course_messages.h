@@ -1,4 +1,4 @@
-// Returns the course of a recording as data for drawings: curves and spans (docs/control.md#a-recording).
+// Return the course of a recording as data for drawings: curves and spans (docs/control.md#a-recording).
 #pragma once
 
 #include "emulator/serve/control/message_fields.h"
@@ -10,7 +10,7 @@
 namespace understudy::emulator::serve {
 
 /// {"do":"curves","names":["feeder.A.position"],"from_ns":0,"to_ns":6000000000,"dots":1000}. Replays the
-/// stretch in `other`, a world of the same bench.
+/// stretch in `other`, a world from the same bench.
 Json curves_message(const Json& message, const world::Timeline& timeline, world::World& other);
 
 /// {"do":"spans","from_ns":0,"to_ns":6000000000,"dots":1000,"from":0}

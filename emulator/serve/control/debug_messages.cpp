@@ -267,13 +267,13 @@ static Json json_of_frame(const world::ProgramLines& lines, int listing_line) {
   return frame;
 }
 
-/// Returns the instructions of each part, with their numbers on the wire where the language has them.
+/// Returns the instructions of each part, including their numbers on the line if the language has them.
 static Json json_of_instructions(const Device& device, const world::ProgramLines& lines) {
   std::vector<CellRow> rows;
   if (const ProgramCells* const form = device.model().language->cells()) {
     try {
       rows = form->assemble(lines.text(), device.settings());
-    } catch (const ProgramError&) {  // the text of a file may hold more than a program
+    } catch (const ProgramError&) {  // the text of a file may contain more than a program
     }
   }
   const bool has_lines =

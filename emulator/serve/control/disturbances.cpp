@@ -1,4 +1,4 @@
-// Handles messages with which a user acts on devices and machines from outside: inputs, power, programs,
+// Handles messages through which a user acts on devices and machines from outside: inputs, power, programs,
 // faults.
 #include <cstddef>
 #include <cstdint>
@@ -37,7 +37,7 @@ bool is_whole(const Json& value) {
   return value.is_number_integer() && !huge;
 }
 
-/// Reads a whole number, or a level as text.
+/// Reads an integer, or a level as text.
 std::int64_t level_of(const Json& value, const std::string& name, TerminalRow::Kind kind) {
   if (value.is_boolean()) return value.get<bool>() ? 1 : 0;
   if (is_whole(value)) return value.get<std::int64_t>();
@@ -60,7 +60,7 @@ std::string field_of(const Json& value, const std::string& name) {
   return value.dump();
 }
 
-/// Describes a fault and what it has done so far.
+/// Describes a fault and its effects so far.
 Json course_of(std::size_t number, const world::ArmedFault& armed, const world::KnownDevices& known) {
   const auto& [fault, course] = armed;
   Json entry{{"number", number}, {"fault", world::to_text(known, fault)}};
@@ -213,8 +213,8 @@ void program_message(Daemon& daemon, const Json& message, const ControlServer::R
   }
   const std::string text = require_text(message, "text");
   if (text.size() <= kMaxAtOnce) return answer(reply, [&] { return load_program(daemon, number, text); });
-  // The check runs in a helper thread, because a message may be far longer than any program that a device
-  // holds. Loading a valid program is quick.
+  // The check runs in a helper thread, because a message may be much longer than any program that fits in a
+  // device. Loading a valid program is fast.
   daemon.do_aside([&daemon, &model = device.model(), settings = device.settings(), number, text,
                    author = daemon.observers().events.author(), reply]() -> std::function<void()> {
     std::vector<ProgramMistake> mistakes = check_program(model, text, settings);

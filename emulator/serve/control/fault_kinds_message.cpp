@@ -98,7 +98,7 @@ ReplyTask faults_message(Daemon& daemon, Json message) {
     co_await pause;
   }
   text.close_list();
-  // In the table, the trigger's fields come after those of the kinds, from "function" on.
+  // In the table, the fields of the trigger come after those of the kinds, beginning with "function".
   text.open_list("trigger");
   const auto* const first = std::find_if(world::kFaultKeys.begin(), world::kFaultKeys.end(),
                                          [](const world::Key& row) { return row.key == "function"; });

@@ -16,7 +16,7 @@ namespace understudy::emulator::serve {
 
 namespace {
 
-/// Returns the text between the braces of "  - write: { ... }", or an empty text for another step.
+/// Returns the text between the braces in "  - write: { ... }", or an empty text for any other step.
 std::string_view inside(std::string_view line, std::string_view step) {
   const std::size_t at = line.find(step);
   const std::size_t end = line.rfind(" }");
@@ -41,7 +41,8 @@ Json values_in(std::string_view pairs) {
   return values;
 }
 
-/// Returns the program in the model's first bench, or an empty text: the lines behind "program: |".
+/// Returns the program in the model's first bench, which is in the lines after "program: |", or an empty
+/// text.
 std::string first_program(std::string_view bench) {
   constexpr std::string_view kKey = "program: |\n";
   const std::size_t at = bench.find(kKey);

@@ -1,4 +1,4 @@
-// Returns the messages for the first move of a model, for a user who has no host yet.
+// Returns the messages for a first move of a model, for users who do not have a host yet.
 #pragma once
 
 #include "emulator/device/device.h"
@@ -6,9 +6,9 @@
 
 namespace understudy::emulator::serve {
 
-/// Returns what the steps of the model's first files do, as messages for a device: {"set":{"Aaxis_SVON":1}}
-/// or {"command":"RSM_SET_V X 2000"}. Steps that only read or check something are left out. If those steps
-/// start a program and the device has none, the first message is {"program":"..."}.
+/// Returns the steps in the model's first files as messages for a device: {"set":{"Aaxis_SVON":1}} or
+/// {"command":"RSM_SET_V X 2000"}. Steps that only read or check something are omitted. If those steps start
+/// a program and the device has none, the first message is {"program":"..."}.
 Json first_move_of(const Device& device);
 
 }  // namespace understudy::emulator::serve

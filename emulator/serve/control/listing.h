@@ -1,4 +1,4 @@
-// Writes frames or events into a reply, one after another.
+// Writes frames or events to a reply, one after another.
 #pragma once
 
 #include <cstddef>
@@ -18,9 +18,10 @@ class Listing {
   Listing(Daemon& daemon, What what, std::uint64_t first, bool is_raw = false)
       : daemon_(daemon), what_(what), is_raw_(is_raw), next_(first) {}
 
-  /// Does one step, which may add one entry. Returns false if none are left, or if the reply is full.
+  /// Performs one step, which may add one entry. Returns false if no entries are left, or if the reply is
+  /// full.
   bool add_next(ReplyText& text);
-  /// Returns the number at which the next request continues.
+  /// Returns the number with which the next request continues.
   std::uint64_t next() const { return next_; }
 
  private:

@@ -1,4 +1,4 @@
-// Returns many values at once, with the frames and events since the last time.
+// Returns many values at once, with the frames and events since the last request.
 #include <unistd.h>
 
 #include <algorithm>
@@ -32,7 +32,7 @@ namespace understudy::emulator::serve {
 
 namespace {
 
-constexpr std::size_t kMaxInReply = 200;  // frames or events in a reply
+constexpr std::size_t kMaxInReply = 200;  // frames or events per reply
 constexpr std::size_t kMaxNames = 2'000;
 
 void add_value(ReplyText& text, const world::LookedNames::Looked& looked) {
@@ -53,7 +53,7 @@ std::string hex_of(std::span<const std::uint8_t> bytes) {
   return text;
 }
 
-/// Returns the number of a list's first entry: "since", or the first of the "last" entries.
+/// Returns the number of the first entry in a list: "since", or the first of the "last" entries.
 std::uint64_t first_wanted(const Json& message, std::uint64_t next, std::size_t max) {
   if (message.contains("since") && message.contains("last")) {
     throw MessageError("since: cannot be combined with last; expected one of them");
@@ -98,7 +98,7 @@ bool Listing::add_frame(ReplyText& text) {
 
 bool Listing::add_event(ReplyText& text) {
   world::EventLog& events = daemon_.observers().events;
-  if (events.collect(1)) return true;  // many frames may yield no event, so each counts as a step
+  if (events.collect(1)) return true;  // many frames may result in no event, so each frame counts as a step
   const auto some = events.since(next_, 1);
   if (some.empty()) {
     if (count_ == 0) next_ = events.next_number();
@@ -123,7 +123,7 @@ bool Listing::add_event(ReplyText& text) {
 
 namespace {
 
-/// Returns frames or events alone.
+/// Returns only frames, or only events.
 ReplyTask tell_listing(Daemon& daemon, Json message, Listing::What what) {
   const Pause pause(daemon);
   daemon.catch_up();
@@ -155,8 +155,8 @@ ReplyTask frames_message(Daemon& daemon, Json message) {
 
 namespace {
 
-/// Returns the list of names that the message gives in full or by its number. Returns nothing if it gives
-/// none.
+/// Returns the list of names in the message, which contains either all names or the number of a list. Returns
+/// nothing if it contains neither.
 std::optional<std::uint64_t> require_list(world::LookedNames& known, const Json& message) {
   if (message.contains("look")) {
     if (message.contains("names"))
@@ -181,7 +181,7 @@ std::optional<std::uint64_t> require_list(world::LookedNames& known, const Json&
 
 }  // namespace
 
-/// Returns the values at the moment that the reply names. Frames and events have their own times.
+/// Returns the values at the moment that is stated in the reply. Frames and events have their own times.
 ReplyTask look_message(Daemon& daemon, Json message) {
   require_keys(message, {"do", "look", "names", "frames", "events", "status"});
   const std::uint64_t frames = message.contains("frames") ? require_count(message, "frames") : 0;

@@ -43,7 +43,7 @@ const Json& require(const Json& message, const char* key) {
 }
 
 Json json_of(double value) {
-  constexpr double kLargest = 9e15;  // doubles hold all whole numbers up to this one
+  constexpr double kLargest = 9e15;  // doubles represent all whole numbers up to this one exactly
   if (std::abs(value) > kLargest || std::floor(value) != value) return value;
   return static_cast<std::int64_t>(value);
 }

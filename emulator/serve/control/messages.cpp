@@ -26,18 +26,19 @@ namespace understudy::emulator::serve {
 
 namespace {
 
-constexpr int kDeepest = 8;  // far deeper than any message
-// The texts of programs and files may be as long as a message. Other texts are names, conditions and frames.
+constexpr int kDeepest = 8;  // much deeper than any message
+// The texts of programs and files may be as long as a message. All other texts are names, conditions and
+// frames.
 constexpr std::size_t kLongestText = std::size_t{64} << 10;
 
-/// A command. It is answered at once, or later, or in pieces.
+/// A command. The answer follows immediately, later, or in pieces.
 struct Verb {
   std::string_view name;
   Json (*answer)(Daemon& daemon, const Json& message) = nullptr;
   void (*answer_later)(Daemon& daemon, const Json& message, const ControlServer::Reply& reply) = nullptr;
   ReplyTask (*make_reply)(Daemon& daemon, Json message) = nullptr;
 };
-/// Answers the verbs that only a recording has (timeline_door.h).
+/// Answers the verbs that exist only for recordings (timeline_door.h).
 Json refuse_without_recording(Daemon& /*daemon*/, const Json& message) {
   throw MessageError(
       message["do"].get<std::string>() +
@@ -101,8 +102,8 @@ const Verb& require_verb(const Json& message) {
   throw MessageError(understudy::quoted(word) + " is not a command; expected one of " + names);
 }
 
-/// Takes the author from the message: "page" if the client declares itself a page, otherwise "control".
-/// Observers see it.
+/// Removes the author from the message and returns it: "page" if the client declares that it is a page,
+/// otherwise "control". Observers can see the author.
 std::string take_author(Json& message) {
   if (!message.contains("as")) return "control";
   const std::string author = require_text(message, "as");
@@ -112,7 +113,7 @@ std::string take_author(Json& message) {
   return author;
 }
 
-/// Refuses long texts, so that no name or condition takes longer to search than hosts would wait.
+/// Refuses long texts, so that searching for a name or a condition never takes longer than hosts wait.
 void require_short_texts(const Json& json) {
   if (json.is_string() && json.get_ref<const std::string&>().size() > kLongestText) {
     throw MessageError(understudy::quoted(json.get_ref<const std::string&>()) +
@@ -166,7 +167,7 @@ bool say_or_refuse(const ControlServer::Reply& reply, const Make& make) {
   }
 }
 
-/// Makes the first piece of a reply at once, and the others when there is time for them.
+/// Creates the first piece of a reply immediately, and the other pieces when there is time for them.
 void run_reply(Daemon& daemon, ReplyTask task, const ControlServer::Reply& reply) {
   const auto whole = std::make_shared<ReplyTask>(std::move(task));
   const auto resume = [whole, reply] {
@@ -195,7 +196,7 @@ void answer(const ControlServer::Reply& reply, const std::function<Json()>& make
 
 namespace {
 
-/// Executes a message. Returns null if the reply comes later.
+/// Executes a message. Returns null if the reply follows later.
 Json act_on(Daemon& daemon, Json message, const ControlServer::Reply& reply) {
   const Verb& verb = require_verb(message);
   const std::string author = take_author(message);
@@ -213,7 +214,7 @@ Json act_on(Daemon& daemon, Json message, const ControlServer::Reply& reply) {
 
 void handle_message(Daemon& daemon, const std::string& line, const ControlServer::Reply& reply) {
   if (line.size() <= kMaxAtOnce) return answer(reply, [&] { return act_on(daemon, parsed(line), reply); });
-  // A long message is parsed in a helper thread, because devices and hosts would have to wait for it.
+  // A long message is parsed in a helper thread, because devices and hosts would otherwise have to wait.
   daemon.do_aside([&daemon, line, reply]() -> std::function<void()> {
     std::shared_ptr<Json> message;
     std::exception_ptr refused;

@@ -15,7 +15,7 @@ namespace understudy::emulator::serve {
 
 class Daemon;
 
-/// Returns true for the verbs of the protocol, including those that only a recording has.
+/// Returns true for the verbs of the protocol, including those that exist only for recordings.
 bool is_verb(std::string_view word);
 
 void handle_message(Daemon& daemon, const std::string& line,

@@ -20,7 +20,7 @@ namespace understudy::emulator::serve {
 
 namespace {
 
-/// Returns true if the stop ends a step, either at its end or at a breakpoint on the way.
+/// Returns true if the stop ends a step, either at the end of the step or at a breakpoint before that.
 bool is_at_a_line(const world::DebugStop& stop) {
   using Reason = world::DebugStop::Reason;
   return stop.reason == Reason::step || (stop.reason == Reason::breakpoint && stop.place.line != 0);
@@ -70,7 +70,7 @@ Json RecordingStops::step(const Json& message) {
   if (wanted.kind == world::StepKind::stand)
     throw MessageError("what: stand cannot go back; expected instruction, line, over or out with back");
   // A step back over a routine goes to the last earlier line with at most as many callers. A step back out of
-  // the routine goes to the last line with fewer.
+  // the routine goes to the last earlier line with fewer callers.
   const world::DebugStop* const stop = debugger().stop();
   const std::size_t depth = stop != nullptr ? stop->depth : SIZE_MAX;
   const world::StepKind kind = wanted.kind;
@@ -100,7 +100,7 @@ RecordingStops::Wanted RecordingStops::wanted_step(const Json& message) const {
 bool RecordingStops::play_on(SimTime until) {
   const SimTime began = now();
   timeline_.play_on(until, [this] { return debugger().stop() != nullptr; });
-  static_cast<void>(debugger().take_stop());  // the clock is stopped anyway
+  static_cast<void>(debugger().take_stop());  // the clock is already stopped
   return now() > began && debugger().stop() != nullptr;
 }
 
@@ -113,9 +113,9 @@ bool RecordingStops::step_on(const Wanted& wanted, SimTime until) {
 
 void RecordingStops::begin_at(std::size_t keyframe) { go_to_(timeline_.time_of_keyframe(keyframe)); }
 
-/// Plays from a keyframe on. Returns the number of the last wanted stop before the moment `before`. It plays
-/// to the tick after the next keyframe, because a line that begins in that tick would seem to be running
-/// already if playback began at that keyframe.
+/// Plays from a keyframe on. Returns the number of the last wanted stop before the moment `before`. Plays to
+/// the tick after the next keyframe, because a line that begins in that tick would seem to be already running
+/// if playback began at that keyframe.
 std::optional<std::size_t> RecordingStops::last_stop(std::size_t keyframe, SimTime before, const PlayOn& play,
                                                      const IsWanted& is_wanted) {
   const bool is_last = keyframe + 1 == timeline_.keyframes();
@@ -128,12 +128,12 @@ std::optional<std::size_t> RecordingStops::last_stop(std::size_t keyframe, SimTi
       if (now() >= before) break;
       if (is_wanted(*debugger().stop())) found = count;
     }
-  } catch (const world::BreakpointError&) {  // at this moment there is no program to step
+  } catch (const world::BreakpointError&) {  // at this moment, there is no program to step
   }
   return found;
 }
 
-/// Searches from one keyframe after another, the last one first.
+/// Searches from one keyframe after another, beginning with the last one.
 void RecordingStops::go_back(const PlayOn& play, const IsWanted& is_wanted) {
   const SimTime from = now();
   for (std::size_t keyframe = timeline_.keyframes(); keyframe-- > 0;) {

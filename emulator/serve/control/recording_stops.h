@@ -14,7 +14,7 @@
 
 namespace understudy::emulator::serve {
 
-/// Returns true if the message has "back":true. Throws MessageError if "back" is neither true nor false.
+/// Returns true if the message contains "back":true. Throws MessageError if "back" is neither true nor false.
 bool is_way_back(const Json& message);
 
 class RecordingStops {
@@ -25,7 +25,7 @@ class RecordingStops {
   /// {"do":"continue","within":"10s"}, {"do":"continue","back":true}. If there is no stop, goes to the end,
   /// or back to the beginning.
   Json resume(const Json& message);
-  /// {"do":"step","what":"line","device":"feeder"}, {"do":"step","what":"line","back":true}, and steps by
+  /// {"do":"step","what":"line","device":"feeder"}, {"do":"step","what":"line","back":true}, and steps in
   /// ticks.
   Json step(const Json& message);
 
@@ -35,9 +35,9 @@ class RecordingStops {
     std::size_t device = 0;
     std::string program{};
   };
-  /// Plays until the next stop, at most to `until`. Returns false if there was none.
+  /// Plays until the next stop, but at most until `until`. Returns false if there was no stop.
   using PlayOn = std::function<bool(SimTime until)>;
-  /// Returns true if the search wants this stop.
+  /// Returns true if the search is looking for this stop.
   using IsWanted = std::function<bool(const world::DebugStop& stop)>;
 
   Wanted wanted_step(const Json& message) const;

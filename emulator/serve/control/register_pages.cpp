@@ -70,7 +70,7 @@ Json number_json(Value value, Type type) {
   return json_of(std::stod(value_text(value, type)));
 }
 
-/// Returns true if the text contains the word without letters, digits or _ next to it.
+/// Returns true if the text contains the word without adjacent letters, digits or _.
 bool names_word(std::string_view text, std::string_view word) {
   const auto is_letter = [](char letter) {
     return std::isalnum(static_cast<unsigned char>(letter)) != 0 || letter == '_';
@@ -83,15 +83,15 @@ bool names_word(std::string_view text, std::string_view word) {
   return false;
 }
 
-/// Returns "X20" for a parameter with a letter, or an empty text for one without.
+/// Returns "X20" for a parameter that has a letter, and an empty text for any other parameter.
 std::string parameter_name(const ParameterRow& parameter, int index) {
   if (parameter.letter.empty()) return {};
   return std::string(parameter.letter) +
          std::to_string(parameter.first + (parameter.of_each_axis ? 0 : index));
 }
 
-/// Returns the names by which choices refer to a register: its own name, and its number as a parameter. If a
-/// parameter has the same name, choices mean the parameter.
+/// Returns the names with which choices refer to a register: its own name, and its parameter number. If a
+/// parameter has the same name as the register, choices refer to the parameter.
 std::vector<std::string> names_in_choices(const Model& model, const RegisterRow& row, int index) {
   std::vector<std::string> names;
   bool is_of_parameter = false;
@@ -150,7 +150,7 @@ Json json_of_row(const Device& device, const RegisterRow& row, int index, int se
   return entry;
 }
 
-/// An entry of a page: a register, or a parameter of a device without registers.
+/// An entry on a page: a register, or a parameter of a device without registers.
 struct Listed {
   const RegisterRow* row = nullptr;
   const NamedParameterRow* parameter = nullptr;
@@ -158,7 +158,7 @@ struct Listed {
   int section = 0;
 };
 
-/// The part of a device's tables that a message asks for.
+/// The requested part of a device's tables.
 struct WantedPage {
   std::size_t device = 0;
   std::optional<std::uint64_t> section{};
@@ -177,14 +177,14 @@ WantedPage wanted_page(const Daemon& daemon, const Json& message) {
   return wanted;
 }
 
-/// Returns true for "0x1002", for "4098", and for "1002", as some manuals write it.
+/// Returns true for "0x1002", "4098", and "1002" (as some manuals write it).
 bool is_number_of(unsigned address, const std::string& find) {
   const std::string hex = in_lower_case(hex4(address));
   return hex == find || hex.substr(2) == find || std::to_string(address) == find;
 }
 
-/// Returns true if the text is part of one of the register's names or of its meaning, or is its address. A
-/// 32-bit register has two names and two addresses.
+/// Returns true if the text is the address of the register, or is part of one of its names or of its meaning.
+/// A 32-bit register has two names and two addresses.
 bool is_row_found(const RegisterRow& row, int index, const std::string& find) {
   const auto address = static_cast<unsigned>(row.address + index * row.stride);
   if (is_number_of(address, find) || (is_32_bit(row.type) && is_number_of(address + 1, find))) return true;
@@ -211,7 +211,7 @@ bool is_found(const Listed& listed, const std::string& find) {
   return is_row_found(*listed.row, listed.index, find);
 }
 
-/// Returns all registers or parameters of the device, or those of one section.
+/// Returns all registers or parameters of the device, or those in one section.
 std::vector<Listed> all_listed(const Device& device, const WantedPage& wanted) {
   std::vector<Listed> all;
   int section = -1;
@@ -232,13 +232,13 @@ std::vector<Listed> all_listed(const Device& device, const WantedPage& wanted) {
   return all;
 }
 
-/// Finds the entries of a page step by step: each step looks at one.
+/// Finds the entries on a page step by step; each step examines one entry.
 class PageWalk {
  public:
   PageWalk(const Device& device, WantedPage wanted)
       : wanted_(std::move(wanted)), all_(all_listed(device, wanted_)) {}
 
-  /// Looks at the next entry. Returns false if there is none left.
+  /// Examines the next entry. Returns false if there is none.
   bool step() {
     is_on_page_ = false;
     if (next_ == all_.size()) return false;
@@ -250,7 +250,7 @@ class PageWalk {
   }
   /// Returns the entry of the last step, or null if it is not on the page.
   const Listed* current() const { return is_on_page_ ? &current_ : nullptr; }
-  /// Adds the total count, and the place where the next page begins.
+  /// Adds the total count, and the number of the entry with which the next page begins.
   void add_end(ReplyText& text) const {
     text.member("of", found_);
     if (wanted_.from + wanted_.count < found_) text.member("next", wanted_.from + wanted_.count);
@@ -278,8 +278,8 @@ struct PageValue {
   std::string name;                 // the full name
   std::optional<NamedPlace> place;  // nothing for a parameter of a device without registers
   std::string_view parameter{};
-  Value raw = 0;                   // the value of a register
-  std::optional<double> number{};  // the value of a parameter, if it has one now
+  Value raw = 0;                   // the value, for a register
+  std::optional<double> number{};  // the value, for a parameter that has a value now
 };
 
 /// Returns nothing for a window, which accepts only messages.
@@ -329,7 +329,7 @@ ReplyTask tell_rows(Daemon& daemon, WantedPage wanted) {
 ReplyTask tell_values(Daemon& daemon, WantedPage wanted) {
   const Pause pause(daemon);
   const Device& device = daemon.world().device(wanted.device);
-  // Finding the names takes long, so it is done first. All values are then read at one moment.
+  // Finding the names takes a long time, so it is done first. All values are then read at the same moment.
   std::vector<PageValue> page;
   PageWalk walk(device, wanted);
   while (walk.step()) {

@@ -1,5 +1,5 @@
-// A reply that is made in pieces. Devices wait while a reply is made, so a reply that takes long pauses
-// between its parts and continues when the work due meanwhile is done (EventLoop::do_in_pieces).
+// A reply that is created in pieces. Devices have to wait while a reply is being created, so a long reply
+// pauses between its parts, and continues when other due work is done (EventLoop::do_in_pieces).
 //
 //   ReplyTask list_message(Daemon& daemon, Json message) {
 //     const Pause pause(daemon);
@@ -11,8 +11,8 @@
 //     co_return text.take();
 //   }
 //
-// The world runs during a pause, so data that must belong to one moment is read between two pauses. Pointers
-// to objects that may disappear must not be kept across a pause.
+// The world runs during a pause, so read data that must belong to the same moment between two pauses, and do
+// not keep pointers to objects that may disappear across a pause.
 #pragma once
 
 #include <coroutine>
@@ -27,8 +27,8 @@ class Daemon;
 class ReplyTask {
  public:
   struct promise_type {
-    // This constructor is declared so that it is not called with the coroutine's arguments, as an aggregate
-    // would be.
+    // This constructor is declared so that it is not called with the arguments of the coroutine, as it would
+    // be for an aggregate.
     promise_type() = default;
     ReplyTask get_return_object() { return ReplyTask(Handle::from_promise(*this)); }
     std::suspend_always initial_suspend() noexcept { return {}; }
@@ -48,8 +48,8 @@ class ReplyTask {
     if (handle_) handle_.destroy();
   }
 
-  /// Continues until it pauses or is done. Returns true if the reply is complete. Rethrows exceptions of the
-  /// verb.
+  /// Continues until it pauses or is done. Returns true if the reply is complete. Rethrows exceptions from
+  /// the verb.
   bool resume() {
     handle_.resume();
     if (handle_.promise().error) std::rethrow_exception(handle_.promise().error);
@@ -64,7 +64,7 @@ class ReplyTask {
   Handle handle_;
 };
 
-/// Pauses only if the time for a piece is over.
+/// Pauses only if the time for a piece is used up.
 class Pause {
  public:
   explicit Pause(Daemon& daemon) : daemon_(daemon) {}

@@ -10,7 +10,7 @@
 
 namespace understudy::emulator::serve {
 
-/// Returns JSON as it appears in a reply. Names and programs come from outside and may not be UTF-8.
+/// Returns JSON in the form for replies. Names and programs come from outside and may not be valid UTF-8.
 std::string text_of(const Json& json);
 
 class ReplyText {

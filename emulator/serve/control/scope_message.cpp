@@ -1,4 +1,4 @@
-// Handles single shots of the oscilloscope, and bytes that a user sends on a line.
+// Handles single shots of the oscilloscope, and bytes that a user sends to a line.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -26,7 +26,7 @@ namespace understudy::emulator::serve {
 
 namespace {
 
-constexpr std::size_t kMaxSamples = 500;  // the most samples of a name in a reply
+constexpr std::size_t kMaxSamples = 500;  // maximum number of samples per name in a reply
 constexpr std::size_t kMaxBytes = 512;
 
 std::string_view state_word(world::Scope::State state) {
@@ -119,7 +119,7 @@ Json scope_reply(const world::Scope* scope) {
   return Json{{"ok", true}, {"scope", scope != nullptr ? course_of_scope(*scope) : Json()}};
 }
 
-/// Returns samples. They are all copied at one moment, then written in pieces.
+/// Returns samples. They are all copied at the same moment, and then written in pieces.
 ReplyTask samples_message(Daemon& daemon, std::uint64_t from) {
   const Pause pause(daemon);
   const world::Scope& scope = *daemon.observers().scope;
@@ -145,7 +145,7 @@ ReplyTask samples_message(Daemon& daemon, std::uint64_t from) {
   co_return text.take();
 }
 
-/// Returns a reply in one piece.
+/// Returns a reply that consists of one piece.
 ReplyTask reply_of(Json reply) { co_return text_of(reply); }
 
 }  // namespace
@@ -195,7 +195,7 @@ Json send_message(Daemon& daemon, const Json& message) {
   if (line.line.due() || line.line.room() < bytes.size()) {
     throw MessageError(name + ": bytes are in transit on the line; expected an idle line");
   }
-  // The bytes arrive as if from a host that has closed the port: the reply appears in `frames`, but nobody
+  // The bytes arrive as if from a host that has closed the port: the reply appears in `frames`, but no host
   // receives it.
   const std::uint64_t next = daemon.frames().next_number();
   world.receive_departed(port.line_number(), bytes);

@@ -42,11 +42,11 @@ constexpr std::array kKeys{
     Key{"q", Move::quit},
 };
 
-constexpr std::size_t kIndentation = 4;  // of the continuation of a folded line
+constexpr std::size_t kIndentation = 4;  // for the continuation of a folded line
 
 bool is_inside_character(char byte) { return (static_cast<unsigned char>(byte) & 0xC0) == 0x80; }
 
-/// Returns the place to break a line so that the first part fits: at a space if possible, but not in the
+/// Returns where to break a line so that the first part fits, if possible at a space, but not within the
 /// indentation.
 std::size_t break_of(const std::string& line, std::size_t columns) {
   const std::size_t text = std::min(line.find_first_not_of(' '), line.size());

@@ -27,7 +27,7 @@ namespace understudy::emulator::serve {
 
 namespace {
 
-// A program that fills a device fits into one message, and into one reply.
+// A program that fills a device fits in one message, and in one reply.
 constexpr std::size_t kLongestMessage = 4 * 1024 * 1024;
 constexpr std::size_t kMaxUnread = 8 * 1024 * 1024;
 constexpr std::size_t kMaxClients = 256;
@@ -56,7 +56,7 @@ int connect_to(const std::string& path) {
   return descriptor;
 }
 
-/// Removes the socket at `path` if nothing answers there, to make room for ours.
+/// If nothing answers at `path`, removes the socket there to make room for ours.
 void remove_dead_socket(const std::string& path) {
   struct stat status {};
   if (lstat(path.c_str(), &status) < 0) return;
@@ -73,11 +73,11 @@ void remove_dead_socket(const std::string& path) {
 
 struct ControlServer::Client {
   Descriptor socket;
-  bool is_awaiting = false;           // a reply is still to come, and nothing is read until then
-  bool has_finished_sending = false;  // the client has closed its side
-  std::string input;                  // the beginning of a message
+  bool is_awaiting = false;           // a reply has not been sent yet, and nothing is read until then
+  bool has_finished_sending = false;  // the client has closed its sending side
+  std::string input;                  // an incomplete message
   std::string output;
-  std::size_t sent = 0;  // bytes of the output
+  std::size_t sent = 0;  // bytes of `output` that have been sent
 };
 
 ControlServer::ControlServer(EventLoop& loop, std::string path, Handler handler)
@@ -86,7 +86,7 @@ ControlServer::ControlServer(EventLoop& loop, std::string path, Handler handler)
   remove_dead_socket(path_);
   Descriptor listener(socket(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
   if (!listener) throw ControlError(path_ + ": " + std::strerror(errno));
-  // Only the owner may open the socket, even for a moment.
+  // No other user may be able to open the socket, even for a moment.
   const mode_t before = umask(0177);
   const bool bound = bind(listener.get(), reinterpret_cast<const sockaddr*>(&address), sizeof(address)) == 0;
   const int error = errno;
@@ -121,13 +121,13 @@ void ControlServer::admit(Descriptor socket) {
       [this, descriptor](std::uint32_t ready) { on_client(descriptor, ready); }, EventLoop::Rank::later);
 }
 
-/// Handles one message per call. Further messages stay in the socket, so that other clients have their turn.
+/// Handles one message per call. Further messages stay in the socket, so that other clients are also served.
 void ControlServer::on_client(int descriptor, std::uint32_t ready) {
   const std::shared_ptr<Client> client = clients_.at(descriptor);
   if ((ready & EventLoop::writable) != 0 && !write_out(*client)) return drop(descriptor);
   if ((ready & EventLoop::readable) == 0) return;
   if (client->is_awaiting || client->has_finished_sending)
-    return drop(descriptor);  // reading is off, so this event is a hang-up
+    return drop(descriptor);  // reading is disabled, so this event is a hang-up
   std::array<char, 4096> bytes;
   ssize_t count = recv(descriptor, bytes.data(), bytes.size(), MSG_PEEK);
   if (count > 0) {
@@ -162,20 +162,20 @@ void ControlServer::serve(const std::shared_ptr<Client>& client) {
     alive->is_awaiting = false;
     send(alive, reply);
   });
-  // This changes the interest too, because nothing is read until the reply is sent.
+  // This also changes the awaited events, because nothing is read until the reply is sent.
   if (client->socket && client->is_awaiting) write_out(*client);
 }
 
 void ControlServer::send(const std::shared_ptr<Client>& client, const std::string& line) {
   if (!client->socket) return;
-  // A device may hold more than a reply can carry.
+  // The contents of a device may exceed the maximum size of a reply.
   const bool is_too_long = line.size() >= kMaxUnread;
   client->output += is_too_long ? R"({"ok":false,"error":"the reply is longer than 8388608 bytes"})" : line;
   client->output += "\n";
   if (!write_out(*client) || client->output.size() - client->sent > kMaxUnread) drop(client->socket.get());
 }
 
-/// Returns false if the client needs nothing more.
+/// Returns false if the client is finished.
 bool ControlServer::write_out(Client& client) {
   while (client.sent < client.output.size()) {
     const ssize_t count = ::send(client.socket.get(), client.output.data() + client.sent,
@@ -192,7 +192,7 @@ bool ControlServer::write_out(Client& client) {
     client.output = {};  // frees the memory of a large reply
   }
   if (client.has_finished_sending && client.output.empty()) return false;
-  // Messages behind an unanswered one stay in the socket.
+  // Messages that follow an unanswered message stay in the socket.
   const std::uint32_t read = client.has_finished_sending || client.is_awaiting ? 0U : EventLoop::readable;
   const std::uint32_t write = client.output.empty() ? 0U : EventLoop::writable;
   loop_.change_interest(client.socket.get(), read | write);
@@ -203,7 +203,7 @@ void ControlServer::drop(int descriptor) {
   const auto it = clients_.find(descriptor);
   if (it == clients_.end()) return;
   loop_.unwatch(descriptor);
-  it->second->socket.close();  // closes it even if others hold the client
+  it->second->socket.close();  // closes it even if other objects still refer to the client
   clients_.erase(it);
   listener_->try_again();
 }
@@ -233,7 +233,7 @@ std::string ask_control(const std::string& path, const std::string& message,
   while (sent < line.size()) {
     const ssize_t count = ::send(descriptor, line.data() + sent, line.size() - sent, MSG_NOSIGNAL);
     if (count < 0 && errno == EINTR) continue;
-    if (count < 0) break;  // the reply may still say why
+    if (count < 0) break;  // there may still be a reply that contains the reason
     sent += static_cast<std::size_t>(count);
   }
   std::array<char, 4096> bytes;

@@ -1,5 +1,5 @@
-// The control socket: a Unix stream socket that only its owner may open. Each message is one line, and so is
-// its reply. messages.h interprets them.
+// The control socket: a Unix stream socket that only its owner can open. Each message is one line, and so is
+// its reply. messages.h interprets the messages.
 #pragma once
 
 #include <chrono>
@@ -18,18 +18,17 @@
 
 namespace understudy::emulator::serve {
 
-/// Thrown if the socket could not be opened. The message is one line that names the path and what was
-/// expected.
+/// Thrown if the socket could not be opened. The message is one line with the path and what was expected.
 struct ControlError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
 class ControlServer final : public Door {
  public:
-  using Reply = std::function<void(const std::string& line)>;  // may be called later, once
+  using Reply = std::function<void(const std::string& line)>;  // may be called later, but only once
   using Handler = std::function<void(const std::string& line, const Reply& reply)>;
 
-  /// Replaces a dead socket at `path`, but nothing else. Throws ControlError.
+  /// Replaces a dead socket at `path`, but no other file. Throws ControlError.
   ControlServer(EventLoop& loop, std::string path, Handler handler);
   ~ControlServer() override;
   ControlServer(const ControlServer&) = delete;
@@ -54,11 +53,11 @@ class ControlServer final : public Door {
   std::map<int, std::shared_ptr<Client>> clients_;
 };
 
-/// Returns true if a process listens at that path.
+/// Returns true if a process is listening at that path.
 bool is_answered(const std::string& path);
 
-/// Sends one message and waits for its reply, for at most `patience` if it is given. Returns the reply
-/// without its line end. Throws ControlError.
+/// Sends a message and waits for its reply, at most for `patience` if that is set. Returns the reply without
+/// its line ending. Throws ControlError.
 std::string ask_control(const std::string& path, const std::string& message,
                         std::optional<std::chrono::milliseconds> patience = {});
 

@@ -1,4 +1,4 @@
-// Saves and restores snapshots of the running world in the user's files.
+// Saves snapshots of the running world to the user's files, and restores them.
 #include <cstdint>
 #include <cstring>
 #include <exception>
@@ -44,7 +44,7 @@ void require_restorable(const Daemon& daemon) {
   }
 }
 
-/// Writes a snapshot. Returns an empty text, or why it could not be written.
+/// Writes a snapshot. Returns the reason if it could not be written, otherwise an empty text.
 std::string written(const std::string& path, const world::WorldState& state, std::uint64_t bench_hash) {
   try {
     return replace_text_file(path, world::to_text(state, bench_hash), ContentKind::snapshot);
@@ -62,7 +62,7 @@ void snapshot_message(Daemon& daemon, const Json& message, const ControlServer::
     throw MessageError(path + ": file: " + why);
   }
   daemon.catch_up();
-  // The snapshot is of this moment, whatever the devices do while it is written.
+  // The snapshot captures this moment, even if the devices change while it is being written.
   const Json taken = reply_of(daemon);
   const auto state = std::make_shared<const world::WorldState>(world::save(daemon.world()));
   daemon.do_aside([path, reply, taken, state, hash = daemon.bench_hash()]() -> std::function<void()> {
@@ -78,8 +78,8 @@ void snapshot_message(Daemon& daemon, const Json& message, const ControlServer::
 
 namespace {
 
-/// Reads and checks a snapshot. It runs in a helper thread, so that the devices do not wait for a large or
-/// invalid file.
+/// Reads and checks a snapshot. Runs in a helper thread, so that a large or invalid file does not delay the
+/// devices.
 world::WorldState read_snapshot(const std::string& path, std::uint64_t bench_hash) {
   const auto text = read_text_file(path);
   if (!text) throw MessageError(path + ": file: " + text.why + "; expected a snapshot");

@@ -34,8 +34,8 @@ std::string folder_path() {
   return "/tmp/understudy-" + std::to_string(getuid());
 }
 
-/// Returns the process that a socket's name contains: 1234 for "1234-2.control". Returns nothing for other
-/// names.
+/// Returns the process number in a socket's name, such as 1234 for "1234-2.control". Returns nothing for
+/// other names.
 std::optional<std::int64_t> process_of(const std::string& name) {
   if (!name.ends_with(kEnding)) return std::nullopt;
   const auto number = parse_integer(std::string_view(name).substr(0, name.find_first_of("-.")));
@@ -50,7 +50,7 @@ std::string control_folder() {
   std::string folder = folder_path();
   mkdir(folder.c_str(), 0700);
   struct stat status {};
-  // If another user owned a folder of that name, that user could read the messages.
+  // If another user owned a folder with this name, that user could read the messages.
   if (lstat(folder.c_str(), &status) < 0 || !S_ISDIR(status.st_mode) || status.st_uid != getuid() ||
       (status.st_mode & 077) != 0) {
     throw ControlError(
@@ -65,7 +65,7 @@ std::string own_control_path() {
   for (int i = 1;; ++i) {
     std::string path = begin + (i == 1 ? "" : "-" + std::to_string(i)) + std::string(kEnding);
     struct stat status {};
-    // The path may belong to another daemon of this process, or to an earlier process with this number.
+    // The path may belong to another daemon of this process, or to an earlier process with the same number.
     if (lstat(path.c_str(), &status) < 0 || !is_answered(path)) return path;
   }
 }

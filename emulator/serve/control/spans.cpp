@@ -30,7 +30,7 @@ Json json_of_span(const Span& span) {
   return entry;
 }
 
-/// Keeps the spans in the stretch, ordered by their beginning. Merges spans of a lane that lie within one
+/// Returns the spans in the stretch, ordered by their beginning. Merges spans of a lane that lie within one
 /// dot.
 std::vector<Span> thinned(std::vector<Span> spans, const Stretch& stretch) {
   std::erase_if(spans, [&](const Span& span) { return span.end < stretch.from || span.begin > stretch.to; });

@@ -1,4 +1,4 @@
-// Spans of a timeline: the states and events in a stretch of it (docs/control.md#spans).
+// Reports the spans of a timeline: its states and events between two times (docs/control.md#spans).
 #pragma once
 
 #include <cstdint>
@@ -14,14 +14,14 @@ namespace understudy::emulator::serve {
 struct Stretch {
   SimTime from{0};
   SimTime to{0};
-  std::uint64_t dots = 0;  // the width of a drawing
+  std::uint64_t dots = 0;  // the width of the drawing
 };
 
-/// Reads `from_ns`, `to_ns` and `dots` of a message. The default is everything from `begin` to `end`. Throws
-/// MessageError.
+/// Reads `from_ns`, `to_ns` and `dots` of a message. By default, the stretch lasts from `begin` to `end`.
+/// Throws MessageError.
 Stretch stretch_of(const Json& message, SimTime begin, SimTime end);
 
-/// Spans of a lane that lie within one dot are reported as one.
+/// A state or an event. Spans of a lane that lie within one dot are reported as one.
 struct Span {
   std::string lane;
   SimTime begin{0};
@@ -33,8 +33,7 @@ struct Span {
 
 Span span_of_wait(const HostWait& wait);
 
-/// Returns the reply with the spans of the stretch, from the number in the message's `from` on. Throws
-/// MessageError.
+/// Returns the reply with the spans of the stretch, starting at the message's `from`. Throws MessageError.
 Json reply_with(std::vector<Span> spans, const Stretch& stretch, const Json& message);
 
 }  // namespace understudy::emulator::serve

@@ -119,7 +119,7 @@ Json device_status(const world::World& world, std::size_t number) {
   if (device.powered()) status["registers"] = telling_registers(device);
   status["inputs"] = Json::object();
   status["outputs"] = Json::object();
-  // Counts and groups, if there are any, have separate objects.
+  // Counts and groups have their own objects, if there are any.
   for (const TerminalView& view : terminal_views(device)) {
     const bool is_count =
         view.what == TerminalView::What::pulses || view.kind == TerminalRow::Kind::counted_in;
@@ -188,7 +188,7 @@ void StatusParts::add_head(ReplyText& text) {
   part_ = Part::lines;
 }
 
-/// Adds a line, or one of its stations.
+/// Adds the line itself, or the next one of its stations.
 void StatusParts::add_of_line(ReplyText& text) {
   if (next_ == daemon_.ports().size()) {
     text.close_list();

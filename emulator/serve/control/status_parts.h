@@ -1,5 +1,6 @@
-// The state of a bench in parts: a line, one of its stations, a device. Each part shows one moment, which
-// lines and devices report as "time_ns". While the clock is stopped, this time is the same in all parts.
+// Reports the state of a bench in parts: a line, one of its stations, or a device. Each part shows a single
+// moment, which lines and devices report as "time_ns". While the clock is stopped, all parts show the same
+// time.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +16,7 @@ class StatusParts {
  public:
   explicit StatusParts(Daemon& daemon) : daemon_(daemon) {}
 
-  /// Adds the next members to an object. Returns false if nothing is left.
+  /// Adds the next members to an object. Returns false if there are no more.
   bool add_next(ReplyText& text);
 
  private:
@@ -25,7 +26,7 @@ class StatusParts {
 
   Daemon& daemon_;
   Part part_ = Part::head;
-  std::size_t next_ = 0;  // the next line or device
+  std::size_t next_ = 0;  // the index of the next line or device
   std::size_t next_station_ = 0;
   bool is_in_line_ = false;
 };

@@ -1,4 +1,4 @@
-// Handles messages that stop simulated time, or advance it.
+// Handles messages that stop or advance simulated time.
 #include <chrono>
 #include <memory>
 #include <optional>
@@ -36,7 +36,7 @@ namespace {
 /// The condition that `run-until` waits for.
 struct Condition {
   explicit Condition(const world::World& world) : probes(world) {}
-  /// Returns true if the condition holds. A condition that has no value also ends the wait.
+  /// Returns true if the condition is true. A condition without a value also ends the wait.
   bool is_met() {
     try {
       return world::is_true(expression, probes);

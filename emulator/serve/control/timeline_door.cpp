@@ -39,16 +39,15 @@ namespace {
 
 constexpr std::size_t kMaxMarks = 2'000;
 constexpr std::size_t kMarksAtOnce = 500;
-constexpr std::size_t kMaxBefore = 200;  // frames, and as many events, from before a moment
+constexpr std::size_t kMaxBefore = 200;  // the most frames, and the most events, kept from before a moment
 
-/// Returns true for events that appear on the timeline bar.
+/// Returns true for events that appear on the timeline.
 bool is_mark(std::string_view what) {
   return what == "fault" || what == "inject" || what == "clear" || what == "exception" || what == "dropped" ||
          what == "power" || what == "program";
 }
 
-/// The commands that leave the bench as it is. A recording refuses the others, because it shows what
-/// happened.
+/// The commands that do not change the bench. A recording refuses all others, because it shows what happened.
 constexpr std::array<std::string_view, 19> kLooks{"status", "identify", "bench",     "registers", "choices",
                                                   "faults", "get",      "eval",      "list",      "frames",
                                                   "events", "where",    "look",      "scope",     "snapshots",
@@ -60,8 +59,8 @@ bool only_looks(const Json& message, const std::string& word) {
   return std::find(kLooks.begin(), kLooks.end(), word) != kLooks.end();
 }
 
-/// Moves a daemon through a recording. The recording is played on first use, because the daemon is created
-/// together with its door.
+/// Moves a daemon through a recording. The recording is replayed on first use, because the door is created
+/// together with the daemon.
 class Travel {
  public:
   Travel(Daemon& daemon, const TimelineSetup& setup)
@@ -122,7 +121,7 @@ class Travel {
   }
 
   /// Handles {"do":"what-if"}, which allows all commands, and {"do":"what-if","off":true}, which returns to
-  /// the moment at which it began.
+  /// the moment at which the first one was received.
   Json what_if(const Json& message) {
     require_keys(message, {"do", "off"});
     const bool is_off = message.contains("off") && message["off"] == true;
@@ -163,7 +162,7 @@ class Travel {
   SimTime stepped(const std::string& by, std::int64_t steps) const {
     const SimTime now = daemon_.world().now();
     if (by == "tick") {
-      // One step back from within a tick leads to its beginning.
+      // Within a tick, one step back leads to its beginning.
       const bool is_within = steps < 0 && time_of(tick_at(now)) < now;
       return std::max(SimTime{0}, time_of(tick_at(now) + steps + (is_within ? 1 : 0)));
     }
@@ -217,7 +216,7 @@ class Travel {
     stretches_.push_back(std::move(stretch));
   }
 
-  /// Returns the last entries before a keyframe, the oldest first.
+  /// Returns the last entries before a keyframe, oldest first.
   template <class One>
   std::vector<One> last_before(std::size_t keyframe, std::vector<One> Stretch::*which) const {
     std::vector<One> all;
@@ -228,20 +227,19 @@ class Travel {
     return all;
   }
 
-  /// Keeps hosts away from the recorded lines: what a host sends would not be what happened.
+  /// Separates hosts from the recorded lines. Otherwise, the lines would not show what happened.
   void ignore_hosts(bool ignored) {
     for (const auto& port : daemon_.ports()) port->ignore_hosts(ignored);
   }
   std::optional<SimTime>& altered_at() { return daemon_.observers().altered_at; }
 
-  /// Returns a second world of the same bench, for replaying stretches while the daemon's world stays where
-  /// it is.
+  /// Returns a second world of the same bench. It replays stretches without moving the daemon's world.
   world::World& other_world() {
     if (!other_) other_ = std::make_unique<world::World>(setup_.bench, setup_.options, nullptr);
     return *other_;
   }
 
-  /// Moves to a time. No breakpoint stops the world on the way.
+  /// Moves to a time, without stopping at breakpoints.
   void go_to(SimTime time) {
     world::Debugger& debugger = daemon_.observers().debugger;
     debugger.sleep();
@@ -258,14 +256,14 @@ class Travel {
   world::History history_;
   std::optional<world::Story> story_;
   std::string scenario_;
-  std::vector<Stretch> stretches_;  // one before each keyframe but the first, and one before the end
+  std::vector<Stretch> stretches_;  // one before each keyframe except the first, and one before the end
   std::uint64_t next_frame_ = 1;
   std::uint64_t next_event_ = 1;
   std::vector<SimTime> moments_;        // of frames
   std::vector<SimTime> event_moments_;  // each time once
   std::vector<Json> marks_;
   std::uint64_t marks_left_out_ = 0;
-  world::Timeline timeline_;  // must follow the members that collect() uses: its constructor calls it
+  world::Timeline timeline_;  // declared after the members that collect() uses, which its constructor calls
   RecordingStops stops_{daemon_, timeline_, [this](SimTime time) { go_to(time); }};
 };
 

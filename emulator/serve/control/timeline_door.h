@@ -1,5 +1,5 @@
-// The control socket of a recording. It accepts messages that only read, those that move through the
-// recording, and after `what-if` all messages (docs/control.md).
+// The control socket of a recording. It accepts messages that read state or move through the recording, and
+// after `what-if` all messages (docs/control.md).
 #pragma once
 
 #include <string>
@@ -23,12 +23,12 @@ struct TimelineSetup {
   SimTime end{0};
   SimTime at_first{0};
 };
-/// Answers the messages for a daemon whose world has the recording's bench and whose clock is stopped. It
-/// plays the recording once, as soon as the daemon runs, and moves to `at_first`. The handler must be called
-/// and destroyed on the daemon's thread, or after that thread has ended.
+/// Returns a handler for messages to a daemon whose world has the recording's bench and whose clock is
+/// stopped. It replays the recording once, as soon as the daemon runs, and moves to `at_first`. Call and
+/// destroy the handler on the daemon's thread, or after that thread has ended.
 ControlServer::Handler timeline_handler(Daemon& daemon, TimelineSetup setup);
 
-/// Makes a door with that handler. `path` is as for control_door().
+/// Returns a maker of doors with that handler. `path` is used as by control_door().
 DoorMaker timeline_door(const std::string& path, const TimelineSetup& setup);
 
 }  // namespace understudy::emulator::serve

@@ -1,4 +1,4 @@
-// Handles messages about everything with a name: registers, and everything else that conditions can use.
+// Handles messages about registers and all other values that conditions can use.
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -34,29 +34,29 @@ namespace understudy::emulator::serve {
 
 namespace {
 
-/// A number for a register. It is whole, unless the register holds reals.
+/// A number for a register. It must be whole unless the register contains a real number.
 struct WantedRegister {
   std::string name;
   Json number;
 };
 
-/// The values that `set` sets, in registers and in devices without registers.
+/// The values that `set` assigns to registers and to devices without registers.
 struct WantedValues {
   std::vector<WantedRegister> registers;
   std::vector<std::pair<world::ValueName, double>> values;
 };
 
-/// Returns true if the name is that of a register that holds reals.
+/// Returns true if this is the name of a register for real numbers.
 bool is_real_register(const world::KnownDevices& known, const std::string& name) {
   try {
     return world::find_register(known, name).place.is_real();
   } catch (const world::NameError&) {
-    return false;  // the lookup of the name reports the error
+    return false;  // the error is reported when the name is looked up
   }
 }
 
-/// Returns an error that says what the register accepts. Throws world::NameError if there is no such
-/// register.
+/// Returns an error that describes which values the register accepts. Throws world::NameError if there is no
+/// such register.
 MessageError no_number(const world::KnownDevices& known, const std::string& name, const Json& value) {
   if (world::find_value(known, name)) return is_not(name, value, "a number");
   const world::RegisterName place = world::find_register(known, name);
@@ -67,7 +67,8 @@ MessageError no_number(const world::KnownDevices& known, const std::string& name
   return is_not(name, value, value.is_number() ? "a whole number" : "a number", range);
 }
 
-/// Reads the object under "values": names and numbers, which must be whole if the register holds no reals.
+/// Reads the names and numbers in "values". The numbers must be whole, except for registers with real
+/// numbers.
 WantedValues named_values(const Json& message, const world::KnownDevices& known) {
   require_keys(message, {"do", "values"});
   const Json& values = require_values(message, "names and whole numbers");
@@ -109,7 +110,7 @@ world::NamedNumber resolve(const world::World& world, const world::Probes& probe
   try {
     return probes.resolve(name);
   } catch (const world::NameError&) {
-    // A device with a text protocol has its names only while it is powered.
+    // A device with a text protocol has values only while it is powered.
     std::optional<world::ValueName> value;
     try {
       value = world::find_value(world.known(), name);
@@ -140,7 +141,7 @@ Value value_for(const world::RegisterName& place, const WantedRegister& wanted) 
   throw MessageError(wanted.name + ": " + wanted.number.dump() + " is too large for a 32-bit real");
 }
 
-/// Tries each assignment on a copy of the device, so that either all are made or none.
+/// Tries all assignments on a copy of the device, so that either all of them are made or none.
 void require_possible(const world::World& world,
                       const std::vector<std::pair<world::ValueName, double>>& wanted) {
   std::map<std::size_t, std::unique_ptr<Device>> trials;
@@ -165,7 +166,7 @@ void require_possible(const world::World& world,
 
 namespace {
 
-/// Looks up all names first, then reads all values at once.
+/// Looks up all names first, so that all values are read at the same moment.
 ReplyTask get_names_message(Daemon& daemon, Json message) {
   require_keys(message, {"do", "names"});
   const Json& names = require(message, "names");
@@ -241,7 +242,7 @@ Json set_message(Daemon& daemon, const Json& message) {
   for (std::size_t i = 0; i < wanted.size(); ++i) {
     const std::string& name = wanted[i].name;
     const world::RegisterName place = world::find_register(world.known(), name);
-    // Two bits or halves of one register would be checked separately.
+    // Two bits or halves of the same register would be checked separately.
     for (const world::RegisterName& other : places) {
       if (other.device == place.device && other.place.place.is_same_register(place.place.place)) {
         throw MessageError(name + ": its register appears twice; expected it only once");
@@ -256,7 +257,7 @@ Json set_message(Daemon& daemon, const Json& message) {
     require_accepted(refusal, name, wanted[i].number.dump(), place.place, value);
   }
   for (std::size_t i = 0; i < writes.size(); ++i) {
-    // An earlier write may have changed the order of words.
+    // An earlier assignment may have changed the word order.
     const RegisterBank& bank = *world.device(places[i].device).register_bank();
     if (bank.low_word_first() != low_first[i]) {
       const Value value = value_for(places[i], wanted[i]);

@@ -1,4 +1,4 @@
-// Makes the output of `ctl get` and `ctl eval` from their replies.
+// Formats the replies to `ctl get` and `ctl eval`.
 #pragma once
 
 #include <string>
@@ -6,8 +6,8 @@
 
 namespace understudy::emulator::serve {
 
-/// Returns a line for each value of a reply to {"do":"get"}: "feeder.Cord_A 32000", "time 3.05s". Throws
-/// nlohmann's exceptions if it is not such a reply.
+/// Returns a line for each value in a reply to {"do":"get"}, such as "feeder.Cord_A 32000" or "time 3.05s".
+/// Throws nlohmann's exceptions for other replies.
 std::vector<std::string> value_lines(const std::string& reply);
 
 /// Returns the value in a reply to {"do":"eval"}.

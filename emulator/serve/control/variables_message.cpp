@@ -1,4 +1,4 @@
-// Returns the values that a debugger shows: those of the names in a program, of axes, and of terminals.
+// Returns the values that a debugger shows: names in a program, axes, and terminals.
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -31,9 +31,9 @@ namespace understudy::emulator::serve {
 
 namespace {
 
-constexpr std::size_t kMaxWords = 1'000;  // words of a program that are looked up
+constexpr std::size_t kMaxWords = 1'000;  // the most words of a program that are looked up
 
-/// Returns the register that a program refers to as a parameter such as "VAR32", or the word unchanged.
+/// Returns the register for a parameter of a program, such as "VAR32". Returns other words unchanged.
 std::string register_of(const Device& device, const std::string& word) {
   const std::int64_t number = word.starts_with("VAR") ? parse_integer(word.substr(3)).value_or(-1) : -1;
   for (const ParameterRow& row : device.model().parameters) {
@@ -61,7 +61,7 @@ void add_value(const Device& device, const std::string& word, Json& values) {
   values[device.name() + "." + name] = json_of(number_of(*place, read_value(*bank, *place)));
 }
 
-/// Returns the words of the device's program that may name registers or values, each once.
+/// Returns the words of the device's program that may be names of registers or values, without duplicates.
 std::vector<std::string> words_of_program(const Device& device) {
   const std::string text = device.user_program()->program_text();
   std::vector<std::string> words;
@@ -88,7 +88,7 @@ Json values_of_program(const Daemon& /*daemon*/, const Device& device) {
   return values;
 }
 
-/// Returns the full names of words that programs spell differently.
+/// Returns the full names of words that are spelled differently in programs.
 Json spelled_otherwise(const Device& device) {
   Json names = Json::object();
   if (device.register_bank() == nullptr) return names;

@@ -29,7 +29,7 @@ __attribute__((format(printf, 1, 2))) std::string formatted(const char* format, 
   return text.data();
 }
 
-/// Writes words side by side, on as many lines as they need.
+/// Writes words side by side, on as many lines as necessary.
 class Words {
  public:
   Words(const std::string& title, std::size_t columns)

@@ -27,7 +27,7 @@ namespace understudy::emulator::serve {
 namespace {
 
 constexpr std::size_t kMaxEarlier =
-    200;  // frames, and as many events, that observers keep of the time before
+    200;  // the number of earlier frames that observers keep, and also of events
 
 /// Returns the name of a line that a host has open, or nothing.
 std::optional<std::string> line_with_host(const Daemon& daemon) {
@@ -37,7 +37,7 @@ std::optional<std::string> line_with_host(const Daemon& daemon) {
   return std::nullopt;
 }
 
-/// The frames and events before a moment, so that observers do not see those of an abandoned course.
+/// The frames and events before a moment. Observers do not see those of an abandoned course.
 struct Before {
   std::vector<world::FrameLog::Frame> frames;
   std::vector<world::Event> events;
@@ -71,13 +71,13 @@ std::optional<world::DebugStop> stop_of(const world::Debugger& debugger) {
   return std::nullopt;
 }
 
-/// Calls `go(stops)` with the course up to now, then lets the bench take another course from there.
+/// Calls `go(stops)` with the course up to now. From there, the bench takes another course.
 template <class Go>
 Json go_back(Daemon& daemon, const Go& go) {
   require_way_back(daemon);
   world::Debugger& debugger = daemon.observers().debugger;
   const Before before = before_now(daemon);
-  // Daemon::restore() ends a course, because a restore is not normally part of one. This restore is.
+  // Daemon::restore() ends a course, because most restores are not part of one, but this restore is.
   std::unique_ptr<world::RecentCourse> course = std::move(daemon.observers().course);
   const SimTime from = daemon.world().now();
   Json reply;

@@ -44,20 +44,19 @@ namespace {
 // Free running and long advances pause after this much wall time, so that ports and the control socket are
 // served.
 constexpr WallTime kWorkSlice = std::chrono::milliseconds(5);
-// Bytes are stamped with the world's time, so catching up for them may take longer.
+// Bytes get the world's time, so the daemon may take longer to catch up before they are received.
 constexpr WallTime kWorkForBytes = std::chrono::milliseconds(100);
-// A host that reads more slowly than time passes gets this long before it is checked again.
+// A host that reads more slowly than time passes is checked again after this time.
 constexpr WallTime kReadingTime = std::chrono::milliseconds(1);
-// A trace samples every tick, so a long quiet span takes long to skip. It is skipped in pieces of this
-// length.
+// A trace samples every tick, so a long quiet span takes a long time. It is handled in pieces of this length.
 constexpr SimTime kTracedSpan = std::chrono::milliseconds(100);
-// The first step of simulated time between two looks at the wall clock.
+// The first step of simulated time between two checks of the wall clock.
 constexpr SimTime kSimSlice = std::chrono::milliseconds(100);
 
 // The log keeps some seconds of a busy line for observers.
 constexpr std::size_t kFramesKept = 1024;
 
-// Returns the patience in simulated time, which may run faster than the host's.
+// Returns the patience in simulated time, which may pass faster than the host's time.
 SimTime patience_at(const Speed& speed) {
   const double factor = std::max(1.0, speed.rate());
   return SimTime{static_cast<std::int64_t>(static_cast<double>(world::kFramePatience.count()) * factor)};
@@ -90,7 +89,7 @@ Daemon::Daemon(const world::Bench& bench, const DaemonOptions& options,
   make_doors(bench, options.is_host_simulated ? TcpDoor::Service::on_demand : TcpDoor::Service::at_once);
   if (options.door) door_ = options.door(*this, log_);
   memories_ = std::make_unique<NvKeeper>(bench, world_, log_);
-  // This comes last: a run that cannot start must not touch the files of an earlier run.
+  // This must be last: a run that cannot start must not change the files of an earlier run.
   open_files(bench, options);
 }
 
@@ -140,7 +139,7 @@ FileClaims Daemon::files() const {
   return files;
 }
 
-/// Opens all files before it empties any.
+/// Opens all files before any of them is emptied.
 void Daemon::open_files(const world::Bench& bench, const DaemonOptions& options) {
   if (!options.capture_path.empty()) {
     capture_ = std::make_unique<world::WorldCapture>(world_, options.capture_path, log_);
@@ -178,20 +177,19 @@ void Daemon::catch_up(WallTime longest) {
   if (world_.now() >= target) {
     behind_since_.reset();
   } else if (is_free) {
-    pacer_.moved_to(world_.now(), wall_now());  // as fast as possible: missed time is not made up for
+    pacer_.moved_to(world_.now(), wall_now());  // as fast as possible: lost time is not made up for
   } else if (!behind_since_) {
     behind_since_ = now;
   }
 }
 
-/// Checks for a stall. It runs before anything catches up with the time that has passed.
+/// Checks for a stall. Must run before anything catches up with the elapsed time.
 void Daemon::judge_stall(WallTime now) {
   if (!planned_) return;
   const WallTime planned = *std::exchange(planned_, std::nullopt);
   const WallTime left_out = pacer_.woke(planned, now);
   if (behind_since_) *behind_since_ += left_out;
-  // Every real stall is logged. A slow machine that slips a little again and again is logged ever more
-  // rarely.
+  // Every long stall is logged. Repeated short slips of a slow machine are logged less and less often.
   const bool worth_a_line = left_out >= Pacer::kLongestStall || (pacer_.slips() & (pacer_.slips() - 1)) == 0;
   if (left_out > WallTime{0} && worth_a_line) {
     log_("stalled: " + format_duration(left_out) + " of simulated time was skipped (stall number " +
@@ -199,7 +197,7 @@ void Daemon::judge_stall(WallTime now) {
   }
 }
 
-/// Holds the clock if the debugger has stopped the world. Returns true if so.
+/// Stops the clock if the debugger has stopped the world. Returns true in that case.
 bool Daemon::is_held() {
   if (!observers_.debugger.take_stop()) return false;
   if (advance_done_) advance_target_ = world_.now();
@@ -209,8 +207,8 @@ bool Daemon::is_held() {
   return true;
 }
 
-/// Advances the world to `target`, or until the wall clock reaches `until`. Steps grow, so that quiet spans
-/// pass quickly. Returns true if the debugger has stopped it.
+/// Advances the world to `target`, or until the wall clock reaches `until`. Steps become longer, so that
+/// quiet spans pass quickly. Returns true if the debugger has stopped the world.
 bool Daemon::work_towards(SimTime target, WallTime until) {
   for (SimTime step = kSimSlice; world_.now() < target; step *= 2) {
     if (is_held()) return true;
@@ -226,8 +224,8 @@ void Daemon::pause() {
   if (advance_done_) advance_target_ = world_.now();  // ends the advance here, with a reply
   judge_stall(wall_now());
   pacer_.pause(wall_now());
-  catch_up();                                 // to the moment at which the clock stopped
-  pacer_.moved_to(world_.now(), wall_now());  // the world may be behind that moment
+  catch_up();                                 // to the moment at which the clock was stopped
+  pacer_.moved_to(world_.now(), wall_now());  // the world may not have reached that moment
   behind_since_.reset();
 }
 
@@ -236,7 +234,7 @@ bool Daemon::set_speed(const Speed& speed) {
   judge_stall(wall_now());
   catch_up();
   pacer_.set_speed(speed, wall_now());
-  pacer_.moved_to(world_.now(), wall_now());  // time missed at the earlier speed is not made up for
+  pacer_.moved_to(world_.now(), wall_now());  // time lost at the earlier speed is not made up for
   behind_since_.reset();
   return true;
 }
@@ -255,8 +253,8 @@ bool Daemon::advance(SimTime duration, std::function<void()> done, std::function
   return true;
 }
 
-/// Advances tick by tick, for a slice of wall time at most. When the condition becomes true, the target moves
-/// to the present.
+/// Advances tick by tick, for at most one slice of wall time. When the condition becomes true, the present
+/// becomes the target.
 void Daemon::work_towards_condition() {
   const WallTime until = wall_now() + kWorkSlice;
   while (world_.now() < advance_target_ && wall_now() < until && !is_held()) {
@@ -270,12 +268,12 @@ void Daemon::work_towards_condition() {
   }
 }
 
-/// Returns true if time passes as fast as possible. A host may then have no chance to read in time.
+/// Returns true if time passes as fast as possible. A host may then not be able to read in time.
 bool Daemon::makes_time_go() const {
   return advance_done_ != nullptr || pacer_.speed().kind == Speed::Kind::free;
 }
 
-/// Returns the longest step in which no line sends more than it can buffer.
+/// Returns the longest step in which no line sends more bytes than it can buffer.
 SimTime Daemon::longest_step() const {
   SimTime longest = kHorizon / 4;
   if (!makes_time_go()) return longest;
@@ -299,7 +297,7 @@ void Daemon::work_on_advance() {
   }
   pacer_.moved_to(world_.now(), wall_now());
   if (world_.now() < advance_target_) return;
-  // The line's output is on its way before the caller learns that the advance is over.
+  // The line's output is sent before the caller learns that the advance is over.
   for (const auto& port : ports_) port->flush();
   const std::function<void()> done = std::move(advance_done_);
   advance_done_ = nullptr;
@@ -341,8 +339,8 @@ std::optional<WallTime> Daemon::next_wake() const {
 }
 
 void Daemon::wait() {
-  // An advance is work in progress, not a planned wake-up. So is catching up: its lateness counts from when
-  // it began, not from the remaining simulated time, which may have been a long sleep.
+  // An advance is work in progress, not a planned wake-up. The same applies to catching up: its lateness
+  // counts from its beginning, not from the remaining simulated time, which may include a long sleep.
   planned_ = advance_done_ ? std::nullopt : behind_since_ ? behind_since_ : next_wake();
   std::optional<WallTime> wake = advance_done_ ? WallTime{0} : planned_;
   if (waits_for_hosts()) wake = wall_now() + kReadingTime;
@@ -360,7 +358,7 @@ void Daemon::run() {
     ~Leaving() { daemon.end_posts(); }
     Daemon& daemon;
   } const leaving{*this};
-  pacer_.moved_to(world_.now(), wall_now());  // the opening of ports took no simulated time
+  pacer_.moved_to(world_.now(), wall_now());  // opening the ports took no simulated time
   while (!stopping_) {
     wait();
     if (stopping_) break;
@@ -377,7 +375,7 @@ void Daemon::run() {
     memories_->poll(now);
     if (recording_) recording_->poll();
   }
-  // The recording or trace of a quiet bench must end now, not at its last event.
+  // The recording or trace of an idle bench must end now, not at its last event.
   if (!advance_done_) catch_up();
 }
 

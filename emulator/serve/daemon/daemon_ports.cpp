@@ -57,8 +57,8 @@ void Daemon::watch_presence() {
   });
 }
 
-/// Opens all doors before the log names any, because one may fail to open. Doors on demand do not listen, so
-/// every port number is free.
+/// Opens all doors before any of them is logged, because opening one may fail. Doors on demand do not listen,
+/// so all port numbers are free for them.
 void Daemon::make_doors(const world::Bench& bench, TcpDoor::Service service) {
   constexpr int kFirstFree = 49'152;
   const auto is_taken = [&](int number) {

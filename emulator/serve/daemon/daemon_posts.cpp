@@ -1,4 +1,4 @@
-// Work that other threads post to a daemon.
+// Handles work that other threads post to a daemon.
 #include <sys/eventfd.h>
 #include <sys/types.h>
 #include <unistd.h>

@@ -11,7 +11,8 @@ namespace understudy::emulator::serve {
 
 class DaemonThread {
  public:
-  /// Opens everything; nothing runs yet. `options` must not watch signals, which go to the whole process.
+  /// Opens everything, but does not run yet. `options` must not watch signals, which are sent to the whole
+  /// process.
   DaemonThread(const world::Bench& bench, const DaemonOptions& options,
                std::function<void(const std::string&)> log)
       : daemon_(bench, options, std::move(log)) {}
@@ -23,7 +24,7 @@ class DaemonThread {
   void start() {
     thread_ = std::thread([this] { daemon_.run(); });
   }
-  /// Runs the calls posted so far, then ends. After that nothing runs.
+  /// Ends the thread after the calls posted so far.
   void stop() {
     if (!thread_.joinable()) return;
     daemon_.post([this] { daemon_.stop(); });

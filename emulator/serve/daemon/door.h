@@ -1,4 +1,4 @@
-// The interface of a daemon's entrance for requests: a control socket (control/control_door.h).
+// The interface of a daemon's access point for requests, such as a control socket (control/control_door.h).
 #pragma once
 
 #include <functional>
@@ -16,8 +16,8 @@ class Door {
   virtual const std::string& path() const = 0;
 };
 
-/// Makes a door that lives as long as the daemon and is served by its event loop. If it cannot be made,
-/// returns null with the reason in `log`, or throws ControlError.
+/// Creates a door that lives as long as the daemon and is served by its event loop. If it cannot be created,
+/// logs the reason in `log` and returns null, or throws ControlError.
 using DoorMaker =
     std::function<std::unique_ptr<Door>(Daemon& daemon, const std::function<void(const std::string&)>& log)>;
 

@@ -1,4 +1,4 @@
-// The last waits of a host in simulated time, for observers of a bench that runs.
+// Keeps the last waits of a host in simulated time, for observers of a running bench.
 #pragma once
 
 #include <cstddef>
@@ -32,7 +32,7 @@ class KeptWaits {
     waits_.pop_front();
     ++dropped_;
   }
-  /// `under_way` returns the waits that have not ended, up to the present.
+  /// `under_way` returns the waits that have not ended, up to the present time.
   void add_source(std::function<std::vector<HostWait>()> under_way) { under_way_ = std::move(under_way); }
 
   const std::deque<HostWait>& ended() const { return waits_; }
@@ -41,7 +41,7 @@ class KeptWaits {
   std::uint64_t dropped() const { return dropped_; }
 
  private:
-  std::deque<HostWait> waits_;  // in the order in which they ended
+  std::deque<HostWait> waits_;  // ordered by their end
   std::uint64_t dropped_ = 0;
   std::function<std::vector<HostWait>()> under_way_;
 };

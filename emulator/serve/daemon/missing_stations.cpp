@@ -21,7 +21,7 @@ namespace {
 constexpr std::size_t kMaxListed = 4;
 
 /// Returns true if the station obeys requests to that address, or may obey them because it has no Modbus or
-/// no number. This runs for each request, so it checks Modbus first: finding a number in a register takes
+/// no number. Runs for each request, so it checks Modbus first: finding a station number in a register takes
 /// longer.
 bool may_receive(const Device& device, std::uint8_t address) {
   if (device.modbus() == nullptr || device.modbus()->addressing(address) != Addressing::ignore) return true;
@@ -34,7 +34,7 @@ bool may_receive(const world::WorldLine& line, std::uint8_t address) {
                      [&](const auto& station) { return may_receive(station->device(), address); });
 }
 
-/// Lists the stations of the line, each with its number, for the log.
+/// Lists the stations of the line with their numbers, for the log.
 std::string stations_of(const world::WorldLine& line) {
   std::string text;
   const std::size_t count = line.stations.size();

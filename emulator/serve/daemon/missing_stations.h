@@ -1,4 +1,4 @@
-// Logs requests to a station that is not on the line. Such a request gets no answer, and the host itself can
+// Logs requests to stations that are not on the line. Such a request gets no answer, and the host itself can
 // only report a timeout.
 #pragma once
 
@@ -19,7 +19,7 @@ class MissingStations {
   MissingStations(const world::World& world, std::function<void(const std::string&)> log)
       : world_(world), log_(std::move(log)) {}
 
-  /// Logs each number once, and only the first few if a host tries all numbers.
+  /// Logs each number once. If a host tries all numbers, logs only the first few.
   void check(const pty::CapturedPacket& packet);
 
  private:
@@ -29,7 +29,7 @@ class MissingStations {
 
   const world::World& world_;
   std::function<void(const std::string&)> log_;
-  std::vector<std::vector<std::uint8_t>> reported_;  // the numbers reported for each line
+  std::vector<std::vector<std::uint8_t>> reported_;  // the reported numbers of each line
 };
 
 }  // namespace understudy::emulator::serve

@@ -29,7 +29,7 @@ namespace understudy::emulator::serve {
 
 namespace {
 
-/// Returns the file of a memory, however its path is spelled.
+/// Returns the canonical path of a memory's file.
 std::filesystem::path file_of(const world::DeviceSetup& device) {
   return std::filesystem::weakly_canonical(std::filesystem::absolute(device.nv_path));
 }
@@ -59,7 +59,7 @@ void make_folder(const std::string& folder) {
 /// Reads a memory and reports all errors in it.
 void read_memory(world::DeviceSetup& device, world::Diagnostics& diagnostics) {
   bool is_asked = diagnostics.attempt([&] {
-    // Until the file exists, the bench may set the content of the memory.
+    // While the file does not exist, the bench may set the content of the memory.
     if (auto image = read_nv_file(device.nv_path)) device.settings.nv = std::move(image);
   });
   while (is_asked) {
@@ -111,7 +111,7 @@ NvKeeper::NvKeeper(const world::Bench& bench, const world::World& world,
   }
 }
 
-/// Claims the file of a memory. If nothing can be written there, there is nothing to claim.
+/// Claims the file of a memory. A memory that cannot be written needs no claim.
 void NvKeeper::claim(const world::DeviceSetup& device) {
   try {
     claims_.emplace_back(file_of(device).string());
@@ -123,7 +123,7 @@ void NvKeeper::claim(const world::DeviceSetup& device) {
                          ": nv: another running understudy uses this memory; expected a separate file, or a "
                          "separate folder with --nv, for each");
   }
-  // Nobody else writes this file, so temporary files next to it were left by a writer that was killed.
+  // No other program writes this file, so temporary files next to it were left by a killed process.
   remove_left_beside(file_of(device).string(), ContentKind::nv_image);
 }
 
@@ -168,7 +168,7 @@ void NvKeeper::poll(WallTime now) {
 }
 
 std::optional<WallTime> NvKeeper::next_poll() const {
-  // Results of writing must be polled for, because they do not wake the daemon.
+  // The results of writes must be polled, because they do not wake the daemon.
   if (!due_ && !writer_.is_idle()) return looked_ + NvWriter::kCoalesce;
   return due_;
 }

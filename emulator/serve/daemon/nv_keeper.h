@@ -14,33 +14,33 @@
 
 namespace understudy::emulator::serve {
 
-/// Assigns every device without a memory file one in `folder`, and reads existing files into the settings.
-/// The folder is created if it does not exist. If `folder` is empty, these devices have no file. Throws
+/// Assigns a file in `folder` to every device without a memory file, and reads existing files into the
+/// settings. Creates the folder if it does not exist. If `folder` is empty, these devices get no file. Throws
 /// FileError with all mistakes in the files, NvError if a file or the folder cannot be used, or
 /// std::system_error.
 void read_memories(world::Bench& bench, const std::string& folder);
 
 class NvKeeper {
  public:
-  /// `world` was made from the bench. Memories that differ from their files are written now. Throws
+  /// `world` must be the world of this bench. Memories that differ from their files are written now. Throws
   /// pty::PortError if another process uses one of these files.
   NvKeeper(const world::Bench& bench, const world::World& world, std::function<void(const std::string&)> log);
   ~NvKeeper();  // writes changes, and waits for them
   NvKeeper(const NvKeeper&) = delete;
   NvKeeper& operator=(const NvKeeper&) = delete;
 
-  /// Passes changes to the helper thread, at most once in NvWriter::kCoalesce.
+  /// Passes changes to the helper thread, at most once per NvWriter::kCoalesce.
   void poll(WallTime now);
-  /// Returns when poll() must be called again, if there are changes to pass on or results to collect.
+  /// Returns when to call poll() again, if there are changes to pass on or results to collect.
   std::optional<WallTime> next_poll() const;
-  /// Called after a restore: all files must be written again, whatever the revisions of the memories.
+  /// Call this after a restore: all files must be written again, whatever the revisions of the memories are.
   void world_restored();
 
  private:
   struct File {
     std::size_t device = 0;
     std::string path;
-    std::optional<std::uint64_t> written{};  // the revision in the file; nothing: it must be written
+    std::optional<std::uint64_t> written{};  // the revision in the file; nothing: the memory must be written
   };
   void claim(const world::DeviceSetup& device);
   bool is_behind(const File& file) const;
@@ -49,7 +49,7 @@ class NvKeeper {
   const world::World& world_;
   std::function<void(const std::string&)> log_;
   std::vector<File> files_;
-  std::vector<pty::PortClaim> claims_;  // to the files: two daemons would undo each other's work
+  std::vector<pty::PortClaim> claims_;  // for the files: two daemons would overwrite each other's changes
   std::optional<WallTime> due_;
   WallTime handed_over_{0};
   WallTime looked_{0};

@@ -1,5 +1,5 @@
-// A daemon's data for observers on the control socket. It is not part of the world and costs nothing while
-// no one asks.
+// A daemon's data for observers on the control socket. These data are not part of the world, and cost nothing
+// while nobody requests them.
 #pragma once
 
 #include <cstdint>
@@ -31,10 +31,10 @@ struct Observers {
   world::EventLog events;
   /// The number of restores of the world. Each restore invalidates earlier reports.
   std::uint64_t restores = 0;
-  /// The moment of a recording at which `what-if` began; nothing: the recording is not altered.
+  /// The moment of a recording at which `what-if` began; nothing: the recording is unaltered.
   std::optional<SimTime> altered_at;
   world::LookedNames names;
-  /// Counts which lines of programs have run since `counted_since`; null: no observer has asked for it.
+  /// Counts which lines of programs have run since `counted_since`; null: no observer has requested coverage.
   std::unique_ptr<world::ProgramCoverage> coverage;
   SimTime counted_since{0};
   void count_lines(world::World& world) {
@@ -43,8 +43,8 @@ struct Observers {
   }
   std::unique_ptr<world::Scope> scope;  // null: not armed
   world::Debugger debugger;
-  /// The events since debugging began, for going back; null if nobody is debugging, or if the bench has been
-  /// restored.
+  /// The events since debugging began, for stepping back; null if nobody is debugging, or if the bench has
+  /// been restored.
   std::unique_ptr<world::RecentCourse> course;
   struct Kept {
     SimTime at{0};

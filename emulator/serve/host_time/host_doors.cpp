@@ -32,8 +32,8 @@ namespace understudy::emulator::serve {
 
 namespace {
 
-/// Returns the address as the kernel writes it: empty for this machine itself. A host that asks for a name is
-/// answered by the real network, so the name's address is not known here.
+/// Returns the address in the kernel's notation: empty for this machine itself. The real network resolves the
+/// names that a host uses, so the address of a name is not known here.
 std::string address_of(const world::TcpAddress& address) {
   const std::string& host = address.host;
   in_addr four{};
@@ -98,7 +98,7 @@ HostDoors::~HostDoors() {
 void HostDoors::attend() {
   for (std::size_t i = 0; i < entrances_.size(); ++i) {
     TcpDoor& door = *daemon_.doors()[i];
-    door.attend();  // clients that have left make room
+    door.attend();  // clients that have left make room for new ones
     while (true) {
       Descriptor client(
           accept4(entrances_[i].listening.get(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));

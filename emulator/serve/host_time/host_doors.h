@@ -1,5 +1,5 @@
-// The TCP addresses of a bench for a host in simulated time. Nobody listens at them: the preloaded library
-// connects the host's socket to a local one instead, on which bytes arrive as soon as they are written.
+// The TCP addresses of a bench for a host in simulated time. Nobody listens at them: instead, the preloaded
+// library connects the host's socket to a local socket, on which bytes arrive as soon as they are written.
 // Therefore cases can run side by side with the same addresses, and any address and port number can be used.
 #pragma once
 
@@ -19,17 +19,17 @@ namespace understudy::emulator::serve {
 
 class HostDoors {
  public:
-  /// `place` is the beginning of the sockets' paths. Throws pty::PortError, std::system_error.
+  /// `place` is the prefix of the sockets' paths. Throws pty::PortError, std::system_error.
   HostDoors(Daemon& daemon, const std::string& place, HostPage& page);
   ~HostDoors();
   HostDoors(const HostDoors&) = delete;
   HostDoors& operator=(const HostDoors&) = delete;
 
-  /// Admits hosts that have connected, and reads what they have written.
+  /// Admits newly connected hosts, and reads the bytes that they have written.
   void attend();
-  /// Ends the waits of threads whose door has sent something. Returns true if there were any.
+  /// Ends the waits of threads whose door has sent something. Returns true if there were such threads.
   bool report_news(HostWaits& waits);
-  /// Returns the next timeout of a door, such as a gateway's for an answer, or nothing.
+  /// Returns the next timeout of a door, such as a gateway's timeout for an answer, or nothing.
   std::optional<SimTime> due() const;
   /// Returns true if a thread is waiting for a door of the port.
   bool is_waited_for(const Port& port, const HostWaits& waits) const;

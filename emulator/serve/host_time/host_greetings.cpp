@@ -13,7 +13,7 @@ void HostGreetings::on_message(const host_time::Message& message) {
     case MessageKind::hello:
       if (first_process_ < 0) {
         first_process_ = process;
-        ++owed_[process];  // nobody has told that it would begin
+        ++owed_[process];  // this program was not announced
       }
       if (message.value != 0) --owed_[process];
       return;

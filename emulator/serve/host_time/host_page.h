@@ -1,4 +1,4 @@
-// The page of memory that a host in simulated time reads: the present time, and the terminals of the bench.
+// The page of memory that a host in simulated time reads: the current time, and the terminals of the bench.
 #pragma once
 
 #include <cstddef>
@@ -19,7 +19,7 @@ class HostPage {
   HostPage& operator=(const HostPage&) = delete;
 
   void set_now(SimTime now);
-  /// Wakes the threads that wait on the word of this thread, which is a futex.
+  /// Wakes the threads that wait for this thread's word, which is a futex.
   void wake(int thread);
   void set_line(std::size_t line, int terminal);
   /// `address` is empty for this machine itself.

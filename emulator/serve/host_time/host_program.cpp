@@ -19,7 +19,7 @@ namespace understudy::emulator::serve {
 
 namespace {
 
-constexpr std::size_t kHead = 64 * 1024;  // the headers of a program are at its beginning
+constexpr std::size_t kHead = 64 * 1024;  // the headers of a program are within its first bytes
 
 std::string head_of(const std::string& file) {
   std::ifstream stream(file, std::ios::binary);
@@ -38,7 +38,7 @@ std::string interpreter_of(const std::string& head) {
   return interpreter;
 }
 
-/// Returns true if the program is loaded by the dynamic linker.
+/// Returns true if the dynamic linker loads the program.
 bool is_dynamic(const std::string& head) {
   Elf64_Ehdr header;
   std::memcpy(&header, head.data(), sizeof header);

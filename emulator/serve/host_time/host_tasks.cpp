@@ -29,7 +29,7 @@ namespace {
 
 std::string folder_of(int process) { return "/proc/" + std::to_string(process) + "/task"; }
 
-// The files of so many threads stay open; a process may open about a thousand.
+// The files of this many threads stay open. A process may open about a thousand files.
 constexpr std::size_t kMaxOpen = 128;
 
 using Buffer = std::array<char, 512>;
@@ -44,7 +44,7 @@ std::string_view read_small(const Descriptor& file, Buffer& buffer) {
   return size > 0 ? std::string_view(buffer.data(), static_cast<std::size_t>(size)) : std::string_view();
 }
 
-/// Returns the letter after the name, which is in parentheses and may contain any characters.
+/// Returns the state letter after the name, which is in parentheses and may contain any characters.
 char state_in(std::string_view stat) {
   const std::size_t end = stat.rfind(')');
   return end == std::string_view::npos || end + 2 >= stat.size() ? 'X' : stat[end + 2];
@@ -56,8 +56,7 @@ std::uint64_t runs_in(std::string_view schedstat) {
   return space == std::string_view::npos ? 0 : std::strtoull(schedstat.data() + space, nullptr, 10);
 }
 
-/// Returns true if a thread sleeps until another thread or something outside wakes it, is stopped by a
-/// signal, or has ended.
+/// Returns true if a thread sleeps until it is woken, is stopped by a signal, or has ended.
 bool is_asleep(char state) { return state == 'S' || state == 'T' || state == 'Z' || state == 'X'; }
 
 Descriptor open_process(int process) {
@@ -187,7 +186,7 @@ HostTasks::Task HostTasks::look_at(int process, int task) {
   Buffer buffer{};
   Files& files = files_[task];
   std::string_view stat = files.stat ? read_small(files.stat, buffer) : "";
-  if (stat.empty()) {  // it is new, or the number was that of a thread that has ended
+  if (stat.empty()) {  // the thread is new, or has the number of a thread that has ended
     const std::string folder = folder_of(process) + "/" + std::to_string(task);
     files = {open_to_read(folder + "/stat"), open_to_read(folder + "/schedstat"), {}};
     stat = read_small(files.stat, buffer);
@@ -198,7 +197,7 @@ HostTasks::Task HostTasks::look_at(int process, int task) {
   return {state, runs};
 }
 
-/// Returns false if a thread, other than the one to be left out, does not sleep.
+/// Reads the states of all threads. Returns false if a thread other than `except` does not sleep.
 bool HostTasks::read_tasks(Tasks& tasks, std::optional<int> except) {
   bool are_asleep = true;
   for (const auto& known : processes_) {
@@ -212,9 +211,9 @@ bool HostTasks::read_tasks(Tasks& tasks, std::optional<int> except) {
   return are_asleep;
 }
 
-/// A thread that sleeps, and has not run since it slept before, has slept all the time. If that is true of
-/// all but the speaker, nobody can have woken anybody. Otherwise this looks at all of them twice: there was a
-/// moment between the two looks at which all slept.
+/// A thread that sleeps, and has not run since it slept at the last check, has slept all the time. If this
+/// applies to all threads except the speaker, none of them can have been woken. Otherwise all threads are
+/// checked twice: between the two checks, there was a moment at which all of them slept.
 bool HostTasks::are_all_asleep(std::optional<int> speaker) {
   Tasks before;
   if (!read_tasks(before, speaker)) return false;

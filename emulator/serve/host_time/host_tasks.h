@@ -36,9 +36,9 @@ class HostTasks {
   /// sent messages since the host was asleep, if the last of them tells that it waits: it may still be on its
   /// way to sleep.
   bool are_all_asleep(std::optional<int> speaker);
-  /// Must be called when a thread has been told to continue.
+  /// Call this when a thread has been told to continue.
   void continues(int thread) { asleep_.erase(thread); }
-  /// Must be called when signals may have been sent.
+  /// Call this when signals may have been sent.
   void any_may_continue() { asleep_.clear(); }
 
   /// Describes a thread that the kernel runs: "thread 2 of my_host (1234)".
@@ -49,12 +49,12 @@ class HostTasks {
  private:
   struct Task {
     char state = 'R';
-    std::uint64_t runs = 0;  // how often the kernel has run it
+    std::uint64_t runs = 0;  // how often the kernel has run the thread
     bool operator==(const Task&) const = default;
   };
   using Tasks = std::map<int, Task>;
 
-  /// The kernel's files about a thread. Open ones are read in a fraction of the time.
+  /// The kernel's files about a thread. Reading them is much faster if they stay open.
   struct Files {
     Descriptor stat;
     Descriptor schedstat;

@@ -43,10 +43,10 @@ namespace {
 // A host with several threads that is not asleep is checked again after this time, then less and less often.
 constexpr WallTime kFirstPoll = std::chrono::microseconds(20);
 constexpr WallTime kSlowestPoll = std::chrono::milliseconds(1);
-// Time advances for this long before the control socket and signals have their turn.
+// Time advances for this long before the control socket and signals are served.
 constexpr WallTime kSlice = std::chrono::milliseconds(5);
 constexpr WallTime kWatch = std::chrono::milliseconds(500);
-// A thread that has not waited during this many checks of watch_over() is reported.
+// A thread that has not waited during this many checks by watch_over() is reported.
 constexpr int kPollsBeforeReport = 4;
 
 Descriptor make_timer() {
@@ -82,7 +82,7 @@ ssize_t receive_message(int socket, host_time::Message& message, Descriptor& pas
   return size;
 }
 
-/// Returns the number of the port's pseudo-terminal, or -1 if it has none.
+/// Returns the number of the port's pseudo-terminal, or -1 if there is none.
 int terminal_of(const Port& port) {
   if (port.terminal() == nullptr) return -1;
   const std::string& path = port.terminal()->path();  // /dev/pts/N
@@ -102,8 +102,8 @@ HostTime::HostTime(Daemon& daemon, const std::string& place, std::function<void(
       }),
       tasks_(daemon.loop(),
              [this](int process) {
-               must_poll_ = true;  // its end may have sent a signal
-               receive_all();      // it may have greeted, or become another program
+               must_poll_ = true;  // the end of the process may have sent a signal
+               receive_all();      // the process may have greeted the bench, or executed another program
                judge_end_of(process);
                waits_.process_ended(process);
                timers_.process_ended(process);
@@ -166,7 +166,7 @@ void HostTime::drop(int number) {
   connections_.erase(number);
 }
 
-/// Reads all pending messages: the end of a short-lived program may be noticed before its greeting.
+/// Reads all pending messages. The end of a short-lived program may be noticed before its greeting.
 void HostTime::receive_all() {
   listener_->accept_all();
   std::vector<int> numbers;
@@ -177,7 +177,7 @@ void HostTime::receive_all() {
   }
 }
 
-/// Reports a process that had another program at its end, which did not load the library.
+/// Reports a process whose last program did not load the library.
 void HostTime::judge_end_of(int process) {
   if (!greetings_.is_silent(process) || is_host_to_end_ || !greetings_.silent_one_ended(process)) return;
   report_("process " + std::to_string(process) +
@@ -191,11 +191,11 @@ void HostTime::note_process(const host_time::Message& message) {
   if (message.what == MessageKind::hello || message.what == MessageKind::child) tasks_.add(message.process);
   const bool is_leaving = message.what == MessageKind::child || message.what == MessageKind::leaves;
   if (!is_leaving || tasks_.knows(message.process) || !greetings_.is_silent(message.process)) return;
-  receive_all();  // it has ended already
+  receive_all();  // the thread has already ended
   judge_end_of(message.process);
 }
 
-/// Returns false if there was no message.
+/// Handles a message. Returns false if there was none.
 bool HostTime::on_message(int number) {
   host_time::Message message{};
   Descriptor passed;
@@ -227,7 +227,7 @@ bool HostTime::on_message(int number) {
 }
 
 void HostTime::answer(int number, HostAnswer what, const HostWaits::Thread& thread) {
-  if (what == HostAnswer::refuse) return;  // on_message() drops it
+  if (what == HostAnswer::refuse) return;  // on_message() drops the connection
   host_time::Message message = thread.wait;
   message.what = what == HostAnswer::go ? host_time::MessageKind::go : host_time::MessageKind::cancelled;
   // This cannot block, because a thread has at most a few unread answers.
@@ -244,8 +244,8 @@ void HostTime::poll_again() {
   set_timer(next_poll_, patience_);
 }
 
-/// Returns the kernel's number of the only thread that has sent messages since the host was asleep, if it
-/// waits for nothing but the bench and signals, and no signal can have come.
+/// Returns the kernel's number of the only thread that has sent messages since the host was asleep, if that
+/// thread waits only for the bench and signals, and no signal can have arrived.
 std::optional<int> HostTime::lone_speaker() const {
   if (speakers_.size() != 1 || !is_last_message_wait_ || must_poll_) return std::nullopt;
   const auto found = waits_.threads().find(*speakers_.begin());
@@ -259,9 +259,9 @@ bool HostTime::is_host_asleep() {
   if (is_host_over_) return true;
   if (must_poll_) tasks_.any_may_continue();
   const std::optional<int> speaker = lone_speaker();
-  // A thread that has just ended may have woken one that waits for others too. Its end is read first: threads
-  // that exist when time advances are numbered. A thread that has sent a message also sleeps until it is
-  // answered, so unread messages come last.
+  // A thread that has just ended may have woken another thread. Its end is read first, because only threads
+  // that exist when time advances are numbered. A thread that has sent a message sleeps until it is answered,
+  // so unread messages are checked last.
   const bool is_alone = speaker && tasks_.is_one_thread();
   if ((!is_alone && !tasks_.are_all_asleep(speaker)) || has_unread_messages()) return false;
   must_poll_ = false;
@@ -276,13 +276,13 @@ bool HostTime::has_unread_messages() const {
   return poll(entries.data(), entries.size(), 0) != 0;
 }
 
-/// Takes what the host has written, and notices which ports it has opened and closed.
+/// Takes the bytes that the host has written, and notices which ports it has opened and closed.
 void HostTime::take_from_host() {
   for (const auto& port : daemon_.ports()) port->attend();
   doors_.attend();
 }
 
-/// Gives the host the lines' output, and ends the waits for it. Returns true if one has ended.
+/// Passes the lines' output to the host, and ends the waits for it. Returns true if a wait has ended.
 bool HostTime::give_to_host() {
   bool has_ended = false;
   doors_.attend();
@@ -304,8 +304,8 @@ bool HostTime::give_to_host() {
   return waits_.time_is(daemon_.world().now()) || has_ended;
 }
 
-/// Sends the signals of timers that have expired. The threads that they wake will give up their waits.
-/// Returns true if there were any.
+/// Sends the signals of expired timers. The threads that they wake give up their waits. Returns true if there
+/// were any expired timers.
 bool HostTime::expire_timers() {
   const auto expired = timers_.expire(daemon_.world().now());
   for (const HostTimers::Expired& each : expired) send_signal(each);
@@ -313,8 +313,7 @@ bool HostTime::expire_timers() {
   return !expired.empty();
 }
 
-/// Returns how far time may advance before the host or the task must act, or nothing if it must not
-/// advance.
+/// Returns the time until which the host and the task need not act, or nothing if time must not advance.
 std::optional<SimTime> HostTime::next_stop() const {
   const world::World& world = daemon_.world();
   const SimTime now = world.now();
@@ -333,7 +332,7 @@ std::optional<SimTime> HostTime::next_stop() const {
     if (may_change && stop) not_beyond(time_of(tick_at(now) + 1));
   }
   if (stop) return stop;
-  return world.next_due();  // all threads wait indefinitely, and only a device could end that
+  return world.next_due();  // all threads wait indefinitely, and only a device could wake one
 }
 
 bool HostTime::may_time_go() const {
@@ -353,8 +352,8 @@ void HostTime::consider() {
     if (must_poll_ && !is_host_over_) return poll_again();
     const bool continues = give_to_host();
     if (!may_time_go()) return;
-    // A thread that continues may next wait for one that is already waiting, and no message would report
-    // that.
+    // A thread that continues may then wait for another thread that is already waiting, and no message would
+    // report that.
     if (continues) return poll_again();
     if (expire_timers()) return poll_again();
     for (const auto& port : daemon_.ports()) {
@@ -411,7 +410,7 @@ std::size_t HostTime::line_of(int terminal) const {
   return static_cast<std::size_t>(found - lines_.begin());
 }
 
-/// Reports once that a thread does not wait, and once that all wait for something outside the bench.
+/// Reports once that a thread does not wait, and once that all threads wait for something outside the bench.
 void HostTime::watch_over() {
   idle_polls_ = std::exchange(has_moved_, false) ? 0 : idle_polls_ + 1;
   if (idle_polls_ < kPollsBeforeReport || is_host_over_) return;

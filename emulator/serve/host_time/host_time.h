@@ -1,7 +1,7 @@
 // Puts an unmodified host into simulated time (`exec --host-time`). A preloaded library intercepts its clock
-// reads and waits, and asks this class. Simulated time stops while any thread of the host can continue; when
-// all wait, it advances to whatever comes first: the end of a wait, or data on a line that a thread waits
-// for. docs/host-time.md describes the order in which bytes and time advance.
+// reads and waits, and forwards them to this class. Simulated time stops while any thread of the host can
+// continue. When all threads wait, time advances to the first event: the end of a wait, or data on a line for
+// which a thread waits. docs/host-time.md describes the order in which bytes and time advance.
 #pragma once
 
 #include <chrono>
@@ -33,24 +33,24 @@ namespace understudy::emulator::serve {
 
 class HostTime {
  public:
-  /// From now on the ports of the daemon are served when the host waits. The clock must be stopped
-  /// (`manual`). `place` is the path of the socket, which must be in a private folder. `report` receives
-  /// messages for the user. Throws std::system_error.
+  /// Serves the daemon's ports only when the host waits, from now on. The clock must be stopped (`manual`).
+  /// `place` is the path of the socket, which must be in a private folder. `report` receives messages for the
+  /// user. Throws std::system_error.
   HostTime(Daemon& daemon, const std::string& place, std::function<void(const std::string&)> report);
   ~HostTime();
   HostTime(const HostTime&) = delete;
   HostTime& operator=(const HostTime&) = delete;
 
-  /// Returns the variables that the host's environment needs. Throws NoTtyShim.
+  /// Returns the environment variables that the host needs. Throws NoTtyShim.
   std::vector<std::pair<std::string, std::string>> environment() const;
-  /// From now on time advances only while the task waits too. It must outlive this object, or be removed
-  /// (null).
+  /// Lets time advance only while the task also waits, from now on. The task must outlive this object, or be
+  /// removed by passing null.
   void run_beside(SimulatedTask* task);
-  /// Must be called when a signal is about to end the host: waiting threads may wake, and processes may end
-  /// before they have greeted.
+  /// Call this when a signal is about to end the host: waiting threads may wake up, and processes may end
+  /// before they have greeted the bench.
   void host_is_to_end() { must_poll_ = is_host_to_end_ = true; }
-  /// Must be called when the host has ended. Takes the bytes that it wrote last. From now on the task
-  /// alone decides how far time advances.
+  /// Call this when the host has ended. Takes the last bytes that the host wrote. From now on, the task alone
+  /// decides how far time advances.
   void host_ended();
   /// See HostGreetings::was_reached().
   bool was_reached() const { return greetings_.was_reached(); }
@@ -103,12 +103,12 @@ class HostTime {
   std::vector<Seen> lines_;
   Descriptor next_poll_;    // a timer
   Descriptor watch_;        // a timer
-  WallTime patience_{0};    // before the next check of a host that is not asleep
-  bool must_poll_ = false;  // a signal may have woken a thread that the bench takes for waiting
-  std::set<int> speakers_;  // connections that have sent messages since the host was asleep last
+  WallTime patience_{0};    // the time until the next check of a host that is not asleep
+  bool must_poll_ = false;  // a signal may have woken a thread that seems to be waiting
+  std::set<int> speakers_;  // connections that have sent messages since the host was last asleep
   bool is_last_message_wait_ = false;
-  bool was_asleep_ = false;  // and no message has arrived since
-  bool has_moved_ = true;    // since watch_over() looked last
+  bool was_asleep_ = false;  // the host was asleep, and has sent no message since
+  bool has_moved_ = true;    // something has happened since the last call of watch_over()
   int idle_polls_ = 0;
   bool has_reported_spinning_ = false;
   bool has_reported_outside_ = false;

@@ -47,7 +47,7 @@ std::vector<HostTimers::Expired> HostTimers::expire(SimTime now) {
     expired.push_back(timer.notice);
     std::uint64_t count = 1;
     if (timer.interval > SimTime{0}) count += static_cast<std::uint64_t>((now - timer.next) / timer.interval);
-    // The counter cannot be full: a host would have to leave 2^64 expirations unread.
+    // The counter cannot overflow: that would take 2^64 unread expirations.
     if (timer.counter) [[maybe_unused]]
       const ssize_t size = write(timer.counter.get(), &count, sizeof count);
     timer.next += timer.interval * static_cast<std::int64_t>(count);

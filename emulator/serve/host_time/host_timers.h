@@ -1,4 +1,4 @@
-// The timers of a host in simulated time.
+// Simulates the timers of a host in simulated time.
 #pragma once
 
 #include <sys/types.h>
@@ -19,19 +19,19 @@ class HostTimers {
  public:
   struct Expired {
     int process = -1;
-    int target = 0;         // the thread that gets the signal; 0: any
+    int target = 0;         // the thread that receives the signal; 0: any thread
     int signal_number = 0;  // 0: the timer counts in a descriptor
     std::int64_t value = 0;
     bool operator==(const Expired&) const = default;
   };
 
-  /// Sets the timer that the message names, or removes it. `counter` is empty if the timer sends a signal.
+  /// Sets or removes the timer in the message. `counter` is empty if the timer sends a signal.
   void set(const host_time::Message& message, Descriptor counter);
   /// Forgets the timers of a process.
   void process_ended(int process);
   std::optional<SimTime> next() const;
-  /// Returns the timers that have expired at `now`, in the order of processes and numbers. Increments the
-  /// counters of those that have a descriptor.
+  /// Returns the timers that have expired at `now`, ordered by process and number. Increments the counters of
+  /// timers with a descriptor.
   std::vector<Expired> expire(SimTime now);
 
  private:

@@ -73,7 +73,7 @@ void HostWaitLog::begin(const HostWaits& waits, const Lines& lines, SimTime now)
       continue;
     }
     const Open& last = found->second;
-    // The wait for a reply lasts until the reply is complete: its first bytes do not end it.
+    // The wait for a reply lasts until the reply is complete; its first bytes do not end the wait.
     const bool is_same_reply =
         last.kind == Kind::reply && (open.kind == Kind::data || open.kind == Kind::other);
     const bool is_same = (open.kind == last.kind || is_same_reply) && open.lines == last.lines &&
@@ -112,7 +112,7 @@ std::vector<HostWait> HostWaitLog::under_way(const HostWaits& waits, const Lines
     const std::size_t order = entry.first;
     const Open& open = entry.second;
     if (open.end <= open.begin) continue;
-    // A wait is reported when time advances again, so this one may already have ended.
+    // A wait is reported when time advances again, so this wait may already have ended.
     const bool still_waits = std::ranges::any_of(waits.threads(), [&](const auto& each) {
       const HostWaits::Thread& thread = each.second;
       return thread.order == order && thread.state == HostState::waiting &&

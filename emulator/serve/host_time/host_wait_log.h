@@ -1,5 +1,5 @@
-// Reports what the threads of a host wait for, and how long, for recordings: "waits for a reply, 512 ms".
-// Waits that follow each other without a pause, as for each byte of a reply, are reported as one.
+// Reports the waits of a host's threads and their durations for recordings, such as "waits for a reply, 512
+// ms". Consecutive waits, as for each byte of a reply, are reported as one.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +17,7 @@ namespace understudy::emulator::serve {
 
 class HostWaitLog {
  public:
-  /// A line of the bench as the log needs it.
+  /// The byte counts of a line.
   struct LineCount {
     std::string name{};
     std::uint64_t bytes_in = 0;
@@ -29,13 +29,13 @@ class HostWaitLog {
   HostWaitLog(std::function<std::size_t(int)> line_of, std::function<void(const HostWait&)> report)
       : line_of_(std::move(line_of)), report_(std::move(report)) {}
 
-  /// Must be called when all threads wait and time is about to advance.
+  /// Call this when all threads wait and time is about to advance.
   void begin(const HostWaits& waits, const Lines& lines, SimTime now);
-  /// Must be called when time has advanced, before the host continues.
+  /// Call this when time has advanced, before the host continues.
   void end(const Lines& lines, SimTime now);
   /// Reports the waits that are still open.
   void finish(const Lines& lines);
-  /// Returns the waits that are not reported yet, up to the present.
+  /// Returns the waits that are not reported yet, up to the present time.
   std::vector<HostWait> under_way(const HostWaits& waits, const Lines& lines) const;
 
  private:
@@ -43,8 +43,8 @@ class HostWaitLog {
   struct Open {
     Kind kind = Kind::other;
     std::vector<std::size_t> lines{};
-    std::uint64_t asked = 0;     // bytes that the host had written to these lines
-    std::uint64_t answered = 0;  // bytes that it had received from them
+    std::uint64_t asked = 0;     // the number of bytes that the host had written to these lines
+    std::uint64_t answered = 0;  // the number of bytes that the host had received from them
     std::int64_t until_ns = 0;
     std::uint32_t sequence = 0;
     bool is_check = false;
@@ -63,8 +63,8 @@ class HostWaitLog {
 
   std::function<std::size_t(int)> line_of_;
   std::function<void(const HostWait&)> report_;
-  // Both maps are keyed by the thread's order, because a new connection may reuse the descriptor of a closed
-  // one.
+  // The keys of both maps are the threads' numbers in order, because a new connection may reuse the
+  // descriptor of a closed one.
   std::map<std::size_t, Open> open_;
   std::map<std::size_t, std::size_t> numbers_;
   std::size_t next_number_ = 1;

@@ -1,5 +1,4 @@
-// The threads of a host in simulated time, as the bench knows them: which of them are waiting, and for what.
-// Pure: no sockets.
+// Tracks which threads of a host in simulated time are waiting, and for what. Pure: no sockets.
 #pragma once
 
 #include <array>
@@ -15,22 +14,22 @@
 
 namespace understudy::emulator::serve {
 
-/// A thread is `unknown` until it greets the bench. One that waits without a message is `running` here;
-/// HostTasks sees whether the kernel runs it.
+/// The state of a thread. It is `unknown` until the thread greets the bench. A thread that waits without a
+/// message is `running` here; HostTasks detects that the kernel does not run it.
 enum class HostState : std::uint8_t { unknown, running, waiting, gone };
 enum class HostEvent : std::uint8_t {
-  hello,   // it greets the bench
-  wait,    // it waits
-  cancel,  // something else has ended its wait
-  time,    // its wait has expired
-  line,    // a line that it waits for has news
-  left,    // its connection is closed
+  hello,   // the thread greets the bench
+  wait,    // the thread waits
+  cancel,  // something else has ended the thread's wait
+  time,    // the wait has expired
+  line,    // a line for which the thread waits has news
+  left,    // the thread's connection is closed
 };
 enum class HostAnswer : std::uint8_t {
   nothing,
-  go,         // its wait is over
+  go,         // the wait is over
   cancelled,  // no further message about its wait will arrive
-  refuse,     // it violates the protocol: the connection is closed
+  refuse,     // the thread violates the protocol, so its connection is closed
 };
 
 struct HostStep {
@@ -41,9 +40,9 @@ struct HostStep {
 inline constexpr std::size_t kHostStates = 4;
 inline constexpr std::size_t kHostEvents = 6;
 
-/// The effect of each event in each state (docs/host-time.md has it too). A wait that arrives during another
-/// one comes from a signal handler; the thread sends the first one again afterwards. The bench may have ended
-/// a wait while the thread was giving it up: `cancelled` is then the last message.
+/// The effect of each event in each state (also listed in docs/host-time.md). A wait that arrives during
+/// another wait comes from a signal handler; the thread sends the first wait again afterwards. The bench may
+/// have ended a wait while the thread was giving it up. `cancelled` is then the last message.
 inline constexpr std::array<std::array<HostStep, kHostEvents>, kHostStates> kHostSteps = [] {
   using enum HostState;
   using enum HostAnswer;
@@ -87,25 +86,25 @@ class HostWaits {
     HostState state = HostState::unknown;
     int process = -1;
     int thread = -1;        // the kernel's number
-    std::size_t order = 0;  // counted from 1, in the order in which threads have connected
+    std::size_t order = 0;  // counted from 1, in the order of connection
     bool is_outside = false;
-    host_time::Message wait{};  // while it waits
+    host_time::Message wait{};  // valid while the thread waits
   };
   using Report = std::function<void(int number, HostAnswer answer, const Thread& thread)>;
 
-  /// `report` is called with each answer except `nothing`.
+  /// `report` is called with each answer other than `nothing`.
   explicit HostWaits(Report report) : report_(std::move(report)) {}
 
   void add(int number) { threads_[number].order = ++last_order_; }
   void remove(int number) { threads_.erase(number); }
-  /// Handles a message of a thread. Messages that are not events of the table change nothing here.
+  /// Handles a message of a thread. Ignores messages that are not events of the table.
   void on_message(int number, const host_time::Message& message);
-  /// Ends the waits that have expired at simulated time `now`. Returns true if there were any.
+  /// Ends the waits that have expired at simulated time `now`. Returns true if there were such waits.
   bool time_is(SimTime now);
-  /// Must be called when data have arrived on the line whose pseudo-terminal has this number. Returns true if
-  /// a thread waited for them.
+  /// Call this when data have arrived on the line whose pseudo-terminal has this number. Returns true if a
+  /// thread was waiting for them.
   bool line_has_news(int terminal);
-  /// Must be called when all bytes written to the line have left the wire.
+  /// Call this when all bytes written to the line have been transmitted.
   bool line_is_drained(int terminal);
   void process_ended(int process);
 

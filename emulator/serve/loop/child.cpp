@@ -27,9 +27,9 @@ namespace understudy::emulator::serve {
 
 namespace {
 
-// A group that was told to end is polled at this interval, because its members need not be our children.
+// A group that was told to end is checked at this interval, because its members may not be our children.
 constexpr WallTime kLook = std::chrono::milliseconds(10);
-// A process that does not end when it is killed (such as one that waits for a broken disk) is left behind
+// A process that does not end when it is killed (for example because it waits for a broken disk) is abandoned
 // after this time.
 constexpr WallTime kAfterKilling = std::chrono::seconds(1);
 
@@ -58,7 +58,7 @@ std::vector<std::string> environment_with(const std::vector<std::pair<std::strin
 Child::Child(EventLoop& loop, const ParentSignals& signals, const ChildCommand& command,
              std::function<void()> over)
     : loop_(loop), signals_(signals), over_(std::move(over)), parent_(getpid()) {
-  // Processes that the command leaves behind become our children, so they are reaped in any environment.
+  // Processes that the command leaves running become our children, so that they can be reaped.
   prctl(PR_SET_CHILD_SUBREAPER, 1);
   if (command.output < 0) terminal_ = open("/dev/tty", O_RDWR | O_NOCTTY | O_CLOEXEC);
   if (terminal_ >= 0 && tcgetpgrp(terminal_) != getpgrp()) {
@@ -92,8 +92,7 @@ Child::~Child() {
 }
 
 void Child::start(const ChildCommand& command) {
-  // Everything that needs memory is made before the fork, because another thread may hold the allocator's
-  // lock.
+  // All memory is allocated before the fork, because another thread may hold the allocator's lock.
   const std::vector<std::string> environment = environment_with(command.environment);
   const std::vector<char*> words = pointers_to(command.words);
   const std::vector<char*> entries = pointers_to(environment);
@@ -104,7 +103,7 @@ void Child::start(const ChildCommand& command) {
   pid_ = fork();
   if (pid_ == 0) become(words.data(), entries.data(), complaining.get(), command.output);
   if (pid_ < 0) throw std::system_error(errno, std::generic_category(), "fork");
-  setpgid(pid_, pid_);  // both processes do it, because either may be first
+  setpgid(pid_, pid_);  // both processes call this, because either one may run first
   give_terminal_to(pid_);
   complaining.close();
   int why = 0;
@@ -129,7 +128,7 @@ void Child::become(char* const* words, char* const* environment, int diagnostics
       _exit(127);
   }
   give_terminal_to(getpid());
-  prctl(PR_SET_PDEATHSIG, SIGTERM);  // its ports disappear with us, however we end
+  prctl(PR_SET_PDEATHSIG, SIGTERM);  // its ports disappear with this process, however it ends
   if (getppid() != parent_) _exit(127);
   signals_.restore();
   execvpe(words[0], words, environment);
@@ -142,7 +141,7 @@ void Child::look_after_children() {
   siginfo_t reported{};
   while (reported.si_pid = 0,
          waitid(P_ALL, 0, &reported, WEXITED | WSTOPPED | WNOHANG) == 0 && reported.si_pid != 0) {
-    if (reported.si_pid != pid_) continue;  // an orphan
+    if (reported.si_pid != pid_) continue;  // an inherited orphan
     if (reported.si_code == CLD_STOPPED) {
       on_stop();
     } else {
@@ -159,13 +158,13 @@ void Child::on_end(const siginfo_t& how) {
   was_asked_ = deadline_ > WallTime{0};
 }
 
-/// Handles Ctrl-Z, which the command received: this process stops too, as if we had received it, so that the
-/// shell that started us shows its prompt.
+/// Handles Ctrl-Z, which the command received. This process also stops, as if it had received the signal, so
+/// that the shell shows its prompt.
 void Child::on_stop() {
   if (terminal_ < 0) return;
   give_terminal_to(getpgrp());
   kill(0, SIGTSTP);
-  // Somebody has continued us, in the foreground or in the background.
+  // This process has been continued, in the foreground or in the background.
   if (tcgetpgrp(terminal_) == getpgrp()) give_terminal_to(pid_);
   kill(-pid_, SIGCONT);
 }
@@ -182,7 +181,7 @@ void Child::end_with(int signal_number) {
 void Child::check_group() {
   if (is_over_) return;
   if (has_ended_ && kill(-pid_, 0) != 0 && errno == ESRCH) return be_over();
-  if (deadline_ == WallTime{0}) return end_with(SIGTERM);  // ends processes that the command has left behind
+  if (deadline_ == WallTime{0}) return end_with(SIGTERM);  // ends processes that the command has left running
   if (wall_now() >= deadline_) kill(-pid_, SIGKILL);
   if (has_ended_ && wall_now() >= deadline_ + kAfterKilling) be_over();
 }

@@ -20,7 +20,7 @@ namespace understudy::emulator::serve {
 
 namespace {
 
-constexpr std::size_t kMaxPieces = 64;  // the most pieces in progress at once
+constexpr std::size_t kMaxPieces = 64;  // the most pieces in progress at a time
 
 std::uint32_t epoll_events(std::uint32_t interest) {
   return ((interest & EventLoop::readable) != 0 ? EPOLLIN : 0U) |
@@ -42,7 +42,7 @@ EventLoop::EventLoop()
       timer_(timerfd_create(CLOCK_MONOTONIC, TFD_CLOEXEC)) {
   if (epoll_ < 0 || later_ < 0) throw std::system_error(errno, std::generic_category(), "epoll_create1");
   if (timer_ < 0) throw std::system_error(errno, std::generic_category(), "timerfd_create");
-  // The timer is edge-triggered: the loop learns of an expiration once and need not read it. Setting the
+  // The timer is edge-triggered: the loop is notified of an expiration once and need not read it. Setting the
   // timer again clears it.
   epoll_event event{};
   event.events = EPOLLIN | EPOLLET;
@@ -84,7 +84,7 @@ void EventLoop::change_interest(int descriptor, std::uint32_t interest) {
   changed_.push_back(descriptor);
 }
 
-/// Passes the changed interests to the kernel. This waits until the next poll, so that an interest that
+/// Passes the changed interests to the kernel. This is delayed until the next poll, so that an interest that
 /// changes back, as after an immediate reply, costs nothing.
 void EventLoop::update_interests() {
   for (const int descriptor : changed_) {
@@ -107,7 +107,7 @@ void EventLoop::unwatch(int descriptor) {
 }
 
 /// Sets a timer that stays set over many waits. A timeout for each wait would set and cancel a timer each
-/// time, which costs several times as much as serving a request.
+/// time, which takes several times as long as serving a request.
 void EventLoop::wake_at(WallTime moment) {
   if (alarm_ == moment) return;
   alarm_ = moment;
@@ -121,7 +121,7 @@ void EventLoop::do_in_pieces(std::function<bool()> piece) { pieces_.push_back(st
 
 bool EventLoop::slice_is_over() const { return slice_end_ != WallTime::max() && wall_now() >= slice_end_; }
 
-/// Keeps the descriptors of rank `later` from waking the loop.
+/// Prevents descriptors of rank `later` from waking the loop.
 void EventLoop::mute_later_ones(bool are_muted) {
   epoll_event event{};
   event.events = are_muted ? 0U : EPOLLIN;
@@ -134,7 +134,8 @@ void EventLoop::wait(std::optional<WallTime> until, WallTime slice) {
   const bool is_due = until && *until <= wall_now();
   const bool was_put_off = std::exchange(puts_off_, false);
   const bool puts_off = was_put_off && !is_due && is_due_soon();
-  // The timer may still be set for a moment that no longer matters. Then it wakes the loop once, for nothing.
+  // The timer may still be set for a moment that no longer matters. In that case, it wakes the loop once for
+  // nothing.
   if (until && !is_due) wake_at(*until);
   if (puts_off) mute_later_ones(true);
   const bool only_looks = is_due || (!pieces_.empty() && !puts_off);
@@ -152,7 +153,7 @@ void EventLoop::wait(std::optional<WallTime> until, WallTime slice) {
       call(event.data.fd, event.events);
     }
   }
-  if (was_put_off && (puts_off || is_due)) {  // the work that they were put off for comes first
+  if (was_put_off && (puts_off || is_due)) {  // the due work comes first
     puts_off_ = wall_now() < put_off_until_;
     return;
   }
@@ -184,12 +185,12 @@ void EventLoop::call(int descriptor, std::uint32_t events) {
   (*function)(ready);
 }
 
-/// Calls the descriptors of rank `later` one by one. The kernel puts those that stay ready at the end of its
-/// list, so all get their turn.
+/// Calls the descriptors of rank `later` one by one. The kernel moves descriptors that stay ready to the end
+/// of its list, so all of them get their turn.
 void EventLoop::call_later_ones(bool are_ready, WallTime slice) {
   slice_end_ = wall_now() + slice;
   do {
-    // With many pieces of work in progress, new messages wait until some are done.
+    // With too many pieces of work in progress, new messages wait until some are done.
     const bool are_many = pieces_.size() >= kMaxPieces;
     if (!pieces_.empty() && (are_pieces_next_ || !are_ready || are_many)) {
       are_pieces_next_ = false;

@@ -1,5 +1,5 @@
-// Waits for descriptors and for a moment, on one thread, with epoll. Urgent descriptors (ports, signals) come
-// first in every turn; after that, other requests get a slice of time.
+// Waits for descriptors and timeouts on a single thread with epoll. Urgent descriptors (ports, signals) come
+// first in every turn. After that, other requests get a slice of time.
 #pragma once
 
 #include <chrono>
@@ -26,36 +26,38 @@ class EventLoop {
 
   /// `departed`: the other side of a socket has closed its sending half, or the connection is broken.
   enum Readiness : std::uint32_t { readable = 1, writable = 2, departed = 4 };
-  /// Ready descriptors of rank `later` are called last, one after another in turn, for at most a slice of
-  /// time. So the urgent ones are checked again soon, however many of these there are.
+  /// The rank of a descriptor. Ready descriptors of rank `later` are called last, one after another, for at
+  /// most a slice of time. So the urgent descriptors are checked again soon, however many of rank `later`
+  /// there are.
   enum class Rank : std::uint8_t { first, later };
   static constexpr WallTime kLaterSlice = std::chrono::microseconds(30);
-  /// A slice for when nothing can be late, as in virtual time.
+  /// The slice if nothing can be late, as in virtual time.
   static constexpr WallTime kLongSlice = std::chrono::milliseconds(1);
-  /// Work of rank `later` does not begin within this time before something is due; it lets that go first.
+  /// Work of rank `later` does not begin within this time before something is due, but waits until that is
+  /// done.
   static constexpr WallTime kRoom = std::chrono::microseconds(100);
 
-  /// Calls `ready` whenever the descriptor is ready for one of `interest`, or has hung up.
+  /// Calls `ready` whenever the descriptor is ready for one of the states in `interest`, or has hung up.
   void watch(int descriptor, std::uint32_t interest, std::function<void(std::uint32_t ready)> ready,
              Rank rank = Rank::first);
   void change_interest(int descriptor, std::uint32_t interest);
   void unwatch(int descriptor);
 
-  /// Runs work piece by piece, in turn with descriptors of rank `later`. `piece` is called again as long as
+  /// Runs work piece by piece, alternating with descriptors of rank `later`. Calls `piece` again as long as
   /// it returns true.
   void do_in_pieces(std::function<bool()> piece);
-  /// Called by work of rank `later`: returns true if it should leave the rest for another turn.
+  /// Returns true if work of rank `later` should leave the rest for another turn.
   bool slice_is_over() const;
 
-  /// Waits until something is ready, or until `until` (nothing: without limit), and calls what is ready. It
-  /// does not wait for a moment in the past.
+  /// Waits until a descriptor is ready, or until `until` (nothing: no limit), and calls what is ready. Does
+  /// not wait if `until` is in the past.
   void wait(std::optional<WallTime> until, WallTime slice = kLaterSlice);
 
  private:
   struct Watch {
-    int epoll = -1;  // the epoll that it is in
+    int epoll = -1;  // the epoll that contains the descriptor
     std::uint32_t interest = 0;
-    std::uint32_t known = 0;                                    // the interest that the kernel knows of
+    std::uint32_t known = 0;                                    // the interest that the kernel knows
     std::shared_ptr<std::function<void(std::uint32_t)>> ready;  // outlives an unwatch() from inside the call
     std::uint64_t turn = 0;                                     // the turn in which it began
   };
@@ -76,9 +78,9 @@ class EventLoop {
   std::deque<std::function<bool()>> pieces_;
   bool are_pieces_next_ = false;
   WallTime slice_end_ = WallTime::max();  // for rank `later`; unlimited at other times
-  bool puts_off_ = false;                 // rank `later` waits for something that is due soon
-  bool has_put_off_ = false;              // it has waited since it was last called
-  WallTime put_off_until_{0};             // when that something is due
+  bool puts_off_ = false;                 // rank `later` is waiting until due work is done
+  bool has_put_off_ = false;              // rank `later` has waited since it was last called
+  WallTime put_off_until_{0};             // when the due work is due
 };
 
 }  // namespace understudy::emulator::serve

@@ -51,11 +51,11 @@ void Listener::accept_all() {
       continue;
     }
     if (errno == EMFILE || errno == ENFILE || errno == ENOBUFS || errno == ENOMEM) rest();
-    return;  // the loop reports the other clients again
+    return;  // the loop reports the remaining clients again
   }
 }
 
-/// Stops listening for a while, because the loop would report the waiting clients again and again.
+/// Stops listening for a while. Otherwise, the loop would report the waiting clients again and again.
 void Listener::rest() {
   is_resting_ = true;
   loop_.change_interest(socket_.get(), 0);

@@ -1,6 +1,6 @@
-// A socket on which clients arrive. When the process has no descriptors left, clients wait without busy
-// looping: the socket is checked again when a client has left, or after a moment, because other parts may
-// close descriptors.
+// A socket that accepts clients. When the process has no descriptors left, clients wait without busy looping:
+// the socket is checked again when a client has left, or after a moment, because other parts may close
+// descriptors.
 #pragma once
 
 #include <functional>
@@ -12,17 +12,17 @@ namespace understudy::emulator::serve {
 
 class Listener {
  public:
-  /// `socket` listens and does not block. Each client is passed to `admit`. Throws std::system_error if
-  /// there is no descriptor left for watching it.
+  /// `socket` must listen and must not block. Each client is passed to `admit`. Throws std::system_error if
+  /// no descriptor is left to watch the socket.
   Listener(EventLoop& loop, Descriptor socket, std::function<void(Descriptor)> admit,
            EventLoop::Rank rank = EventLoop::Rank::first);
   ~Listener();
   Listener(const Listener&) = delete;
   Listener& operator=(const Listener&) = delete;
 
-  /// Tries again, because a descriptor was closed.
+  /// Tries to accept clients again, because a descriptor was closed.
   void try_again();
-  /// Admits all clients that wait now.
+  /// Accepts all waiting clients.
   void accept_all();
 
  private:

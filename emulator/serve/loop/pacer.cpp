@@ -59,7 +59,7 @@ void Lateness::record(WallTime lateness) {
 
 namespace {
 
-/// Returns the bucket of a time. The buckets are in order: one for each value below 16, then sixteen for each
+/// Returns the index of a time's bucket. There is one bucket for each value below 16, then sixteen for each
 /// power of two.
 std::size_t bucket_of(WallTime time) {
   const auto value = static_cast<std::uint64_t>(std::max<std::int64_t>(time.count(), 0));
@@ -70,8 +70,8 @@ std::size_t bucket_of(WallTime time) {
 
 }  // namespace
 
-/// Returns a percentile. The devices wait meanwhile, so it does not sort all times, but only the bucket of
-/// the percentile.
+/// Returns a percentile. The devices wait meanwhile, so only the bucket of the percentile is sorted, not all
+/// times.
 WallTime Lateness::percentile(int percent) const {
   const std::size_t kept = std::min<std::size_t>(count_, recent_.size());
   if (kept == 0) return WallTime{0};
@@ -105,14 +105,14 @@ std::optional<WallTime> Pacer::wall_time_of(SimTime time) const {
   const SimTime ahead = time - anchor_sim_;
   if (speed_.rate() == 1.0) return anchor_wall_ + ahead;
   const double wall_ns = std::ceil(static_cast<double>(ahead.count()) / speed_.rate());
-  if (wall_ns > 1e18) return WallTime::max() / 2;  // in thirty years, beyond the range of the clock
+  if (wall_ns > 1e18) return WallTime::max() / 2;  // thirty years ahead, beyond the range of the clock
   // Rounded up, because nothing may happen a nanosecond early.
   return anchor_wall_ + WallTime{static_cast<std::int64_t>(wall_ns) + 1};
 }
 
 WallTime Pacer::woke(WallTime planned, WallTime wall) {
   const WallTime late = wall - planned;
-  if (late < WallTime{0}) return WallTime{0};  // something else woke it in time
+  if (late < WallTime{0}) return WallTime{0};  // the loop woke up earlier for another reason
   lateness_.record(late);
   if (late <= kLongestStall || standing() || speed_.kind == Speed::Kind::free) return WallTime{0};
   const WallTime left_out = late - kLongestStall;

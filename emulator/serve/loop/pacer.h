@@ -1,5 +1,4 @@
-// Makes simulated time follow the wall clock. Pure: its callers pass the wall time, so tests can use any
-// time.
+// Makes simulated time follow the wall clock. Pure: its callers pass the wall time, so tests can choose it.
 #pragma once
 
 #include <array>
@@ -21,10 +20,9 @@ struct Speed {
   } kind = Kind::factor;
   double factor = 1.0;
 
-  /// Virtual time is limited to this factor, so that a host's actions take some simulated time, but not
-  /// years.
+  /// Limits virtual time to this factor, so that a host's actions take some simulated time, but not years.
   static constexpr double kFreest = 10'000;
-  /// Returns the most simulated seconds per second; 0 for `manual`.
+  /// Returns the maximum number of simulated seconds per second; 0 for `manual`.
   double rate() const;
 };
 
@@ -32,7 +30,7 @@ struct Speed {
 std::optional<Speed> parse_speed(std::string_view text);
 std::string format_speed(const Speed& speed);
 
-/// Measures how late the daemon woke up for events, over the last 4,096 wake-ups; the maximum covers all
+/// Measures how late the daemon woke up for events, over the last 4,096 wake-ups. The maximum covers all
 /// wake-ups.
 class Lateness {
  public:
@@ -49,28 +47,28 @@ class Lateness {
 
 class Pacer {
  public:
-  /// A wake-up that is later than this is a stall: the time beyond it is left out of simulated time.
+  /// A wake-up that is later than this is a stall: the additional time does not count as simulated time.
   static constexpr WallTime kLongestStall = std::chrono::seconds(1);
 
   Pacer(Speed speed, WallTime now) : speed_(speed), anchor_wall_(now) {}
 
-  /// Returns where simulated time should be.
+  /// Returns the simulated time that should have been reached.
   SimTime target(WallTime wall) const;
-  /// Returns when simulated time will get there, or nothing while the clock is stopped.
+  /// Returns when simulated time will reach `time`, or nothing while the clock is stopped.
   std::optional<WallTime> wall_time_of(SimTime time) const;
 
-  /// Records that the daemon woke up at `wall` for something planned for `planned`. A stall is left out of
-  /// simulated time: returns the wall time left out, or 0.
+  /// Records that the daemon woke up at `wall` for an event planned for `planned`. Removes a stall from
+  /// simulated time, and returns the removed wall time, or 0.
   WallTime woke(WallTime planned, WallTime wall);
 
   void pause(WallTime wall);
-  /// Takes effect from now on.
+  /// Sets the speed from now on.
   void set_speed(const Speed& speed, WallTime wall);
   void resume(WallTime wall);
   bool paused() const { return paused_; }
-  /// Returns true if the clock is stopped: paused, or manual.
+  /// Returns true if the clock is stopped: either paused or manual.
   bool standing() const { return paused_ || speed_.kind == Speed::Kind::manual; }
-  /// Continues from `time`, because simulated time was moved by hand or ran ahead (virtual time).
+  /// Continues from `time`, because simulated time was advanced on request or ran ahead (virtual time).
   void moved_to(SimTime time, WallTime wall);
 
   const Speed& speed() const { return speed_; }

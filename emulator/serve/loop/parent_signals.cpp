@@ -21,7 +21,7 @@ ParentSignals::ParentSignals() {
   descriptor_ = signalfd(-1, &reported, SFD_NONBLOCK | SFD_CLOEXEC);
   if (descriptor_ < 0) throw std::system_error(errno, std::generic_category(), "signalfd");
   sigset_t blocked = reported;
-  sigaddset(&blocked, SIGTTOU);  // or we would stop when we give the terminal back
+  sigaddset(&blocked, SIGTTOU);  // otherwise, this process would stop when it takes the terminal back
   sigprocmask(SIG_BLOCK, &blocked, &mask_before_);
   pipe_before_ = signal(SIGPIPE, SIG_IGN);
 }

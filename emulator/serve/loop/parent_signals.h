@@ -9,9 +9,9 @@
 
 namespace understudy::emulator::serve {
 
-/// While it lives, signals that ask this process to end and signals about children arrive through a
-/// descriptor, and signals that it must survive (such as SIGPIPE when a reader ends) are ignored. It must be
-/// made before any other thread.
+/// During its lifetime, signals that ask this process to end and signals about children arrive through a
+/// descriptor. Signals that the process must survive (such as SIGPIPE when a reader ends) are ignored. Create
+/// this object before any other thread.
 class ParentSignals {
  public:
   ParentSignals();
@@ -19,11 +19,11 @@ class ParentSignals {
   ParentSignals(const ParentSignals&) = delete;
   ParentSignals& operator=(const ParentSignals&) = delete;
 
-  /// Calls `on_signal` with the number of each signal that arrives.
+  /// Calls `on_signal` with the number of each received signal.
   void watch(EventLoop& loop, std::function<void(int signal_number)> on_signal);
   void unwatch(EventLoop& loop) const { loop.unwatch(descriptor_); }
 
-  /// Restores all signals to their former state. Called in a child, before it becomes another program.
+  /// Restores the original handling of all signals. Called in a child, before it executes another program.
   void restore() const;
 
  private:

@@ -22,7 +22,7 @@ void notify_service_manager(const char* state) {
   if (address.sun_path[0] == '@') address.sun_path[0] = '\0';  // an abstract socket
   const Descriptor sender(socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0));
   if (!sender) return;
-  // The size includes no zero byte, because an abstract name does not end with one.
+  // The size does not include a zero byte, because an abstract name does not end with one.
   const auto size = static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + length);
   sendto(sender.get(), state, std::strlen(state), MSG_NOSIGNAL, reinterpret_cast<const sockaddr*>(&address),
          size);

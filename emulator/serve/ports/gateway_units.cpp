@@ -47,7 +47,7 @@ bool reads(std::uint8_t function) {
   });
 }
 
-/// Returns a text such as "1 (feeder), 2 (turner)".
+/// Returns the stations on the line as text, such as "1 (feeder), 2 (turner)".
 std::string who_is_there(const world::WorldLine& line) {
   std::string text;
   std::size_t named = 0;

@@ -17,15 +17,15 @@ namespace understudy::emulator::serve {
 
 namespace {
 
-// The header consists of the transaction, the protocol (0) and the length of the rest: the unit and the
-// request.
+// The header consists of the transaction, the protocol (0), and the length of the remaining bytes: the unit
+// and the request.
 constexpr std::size_t kHeader = 6;
 constexpr std::size_t kMinLength = 2;
 constexpr std::size_t kMaxLength = 254;
 
 constexpr std::size_t kLongestFrame = kMaxLength + 2;  // with the checksum
 
-// Stations have this long to execute a broadcast.
+// The time that stations get to execute a broadcast.
 constexpr std::chrono::milliseconds kAfterBroadcast{100};
 
 constexpr std::uint8_t kException = 0x80;
@@ -36,8 +36,8 @@ std::uint16_t word_at(std::span<const std::uint8_t> bytes, std::size_t at) {
   return static_cast<std::uint16_t>(bytes[at] << 8 | bytes[at + 1]);
 }
 
-/// Returns the length of the RTU frame that begins like this, or nothing if its function does not determine
-/// it.
+/// Returns the length of the RTU frame that begins with these bytes, or nothing if its function does not
+/// determine it.
 std::optional<std::size_t> size_of_reply(std::span<const std::uint8_t> frame) {
   const std::uint8_t function = frame[1];
   if ((function & kException) != 0) return kExceptionFrame;
@@ -46,14 +46,14 @@ std::optional<std::size_t> size_of_reply(std::span<const std::uint8_t> frame) {
   return std::nullopt;
 }
 
-/// Returns false if the message announces a length that no message can have.
+/// Returns false if the length in the message's header is impossible.
 bool is_length_possible(std::span<const std::uint8_t> received) {
   if (received.size() < kHeader) return true;
   const std::size_t length = word_at(received, 4);
   return length >= kMinLength && length <= kMaxLength;
 }
 
-/// Returns the size of the message, or nothing if it is incomplete or invalid.
+/// Returns the size of the message, or nothing if the message is incomplete or invalid.
 std::optional<std::size_t> size_of_message(std::span<const std::uint8_t> received) {
   if (received.size() < kHeader || !is_length_possible(received)) return std::nullopt;
   const std::size_t size = kHeader + word_at(received, 4);
@@ -88,8 +88,8 @@ ModbusTcp::Bytes ModbusTcp::take_for_line(std::size_t room) {
     Bytes frame(received_.begin() + kHeader, end);
     const std::uint16_t transaction = word_at(received_, 0);
     received_.erase(received_.begin(), end);
-    if (!is_modbus) continue;  // another protocol is ignored, as the standard says
-    // A frame of Modbus ASCII has two digits for each byte, one checksum byte less, and three marks.
+    if (!is_modbus) continue;  // the standard requires that other protocols are ignored
+    // A frame of Modbus ASCII has two digits for each byte, one checksum byte less, and three delimiters.
     const auto on_line = [this](std::size_t bytes) { return rules_.is_ascii ? 2 * (bytes - 1) + 3 : bytes; };
     const std::uint8_t unit = frame[0];
     if (rules_.station_of) frame[0] = rules_.station_of(unit, frame[1]);
@@ -106,7 +106,7 @@ ModbusTcp::Bytes ModbusTcp::take_for_line(std::size_t room) {
   return {};
 }
 
-/// Receives from the line. Replies that do not match the pending request (late, or damaged) are dropped.
+/// Receives bytes from the line. Drops late or damaged replies, which do not match the pending request.
 void ModbusTcp::receive_from_line(std::span<const std::uint8_t> bytes) {
   if (!on_line_) return;
   reply_.insert(reply_.end(), bytes.begin(), bytes.end());
@@ -116,7 +116,7 @@ void ModbusTcp::receive_from_line(std::span<const std::uint8_t> bytes) {
     if (reply_.size() < size) return;
     const std::span<const std::uint8_t> frame = std::span<const std::uint8_t>(reply_).first(size);
     const bool is_good = pty::rtu_crc_ok(frame);
-    if (!is_good && !size_of_reply(reply_)) return;  // it may be incomplete
+    if (!is_good && !size_of_reply(reply_)) return;  // the reply may be incomplete
     if (is_good && is_reply(frame)) {
       answer(frame.subspan(1, size - 3));
       reply_.clear();

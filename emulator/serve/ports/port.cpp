@@ -32,23 +32,24 @@ namespace understudy::emulator::serve {
 
 namespace {
 
-// The kernel reports a host's close a moment before it takes effect. After this time, it has taken effect.
+// The kernel reports that a host closes the terminal shortly before this takes effect. After this time, it
+// has taken effect.
 constexpr WallTime kSecondPoll = std::chrono::milliseconds(5);
 
-// The interval of checks if the kernel does not report who opens and closes a terminal.
+// The interval of checks if the kernel does not report opening and closing of a terminal.
 constexpr WallTime kUnwatchedPoll = std::chrono::milliseconds(50);
 
-// A host that has taken nothing for this long is considered not to read.
+// A host that has not read anything for this long is considered as not reading.
 constexpr WallTime kStillReads = std::chrono::milliseconds(200);
 
-// This is what the kernel holds (20,480 bytes) and one more read, so a host that leaves loses nothing. If
-// hosts write and leave faster than the wire carries their bytes, the rest is lost.
+// The capacity of the kernel's buffer (20,480 bytes) plus one read, so a host that leaves loses nothing. If
+// hosts write and leave faster than the line transmits their bytes, the excess is lost.
 constexpr std::size_t kLeftoverCapacity = 20'480 + pty::Line::kInputCapacity;
 
 }  // namespace
 
-/// Takes the output of a world that runs fast and sends more at once than its line can buffer. Passes faults
-/// on to guests, which apply them in their own way.
+/// Takes the output of a world that runs fast and sends more bytes at once than its line can buffer. Passes
+/// faults on to guests, which apply them themselves.
 class Port::Overflow final : public pty::LineObserver {
  public:
   explicit Overflow(Port& port) : port_(port) { port_.world_.add_observer(port_.line_number_, *this); }
@@ -118,7 +119,7 @@ void Port::attend() {
   if (terminal_ && is_terminal_ignored()) ignore_terminal();
   if (!terminal_ || is_terminal_ignored()) return flush();
   on_presence({});
-  constexpr int kMaxReadings = 64;  // more than the kernel holds
+  constexpr int kMaxReadings = 64;  // more than the kernel's buffer contains
   for (int i = 0; i < kMaxReadings && terminal_ && room() > 0; ++i) {
     const std::uint64_t before = line().counters().bytes_in;
     on_data(EventLoop::readable);
@@ -128,9 +129,9 @@ void Port::attend() {
   flush();
 }
 
-/// Stops watching a lost terminal, which would report its hang-up without end, and tries to recover it.
+/// Stops watching a lost terminal, which would report its hang-up endlessly, and tries to recover it.
 void Port::keep_watch() {
-  if (!terminal_) return;  // a fault has just unplugged it
+  if (!terminal_) return;  // a fault has just unplugged the port
   if (!terminal_->is_lost()) {
     if (!is_watching_ && !is_on_demand_) watch();
     return;
@@ -157,13 +158,13 @@ void Port::follow_hosts() {
   keep_watch();
 }
 
-/// Tells the line which hosts came and went. `bytes` were read just before.
+/// Tells the line which hosts connected and disconnected. `bytes` were read just before.
 void Port::on_presence(std::span<const std::uint8_t> bytes) {
   if (is_terminal_ignored()) return ignore_terminal();
   const pty::PseudoTerminal::Presence presence = terminal_->poll_presence();
   if (!presence.opened && !presence.closed) return receive(bytes);
   catch_up_();
-  // If both are reported, one host left and another came, or one came and has left again.
+  // If both are reported, either one host left and another came, or one came and has already left.
   if (presence.closed && terminal_->host_present()) world_.host_closed(line_number_);
   if (presence.opened) world_.host_opened(line_number_);
   if (presence.closed && !terminal_->host_present()) {
@@ -176,15 +177,15 @@ void Port::on_presence(std::span<const std::uint8_t> bytes) {
   }
 }
 
-/// Keeps what a host wrote before it closed. These bytes are still served, but must not count as the next
-/// host's input.
+/// Keeps the bytes that a host wrote before it closed the terminal. They are still served, but must not count
+/// as the next host's input.
 void Port::keep_leftover() {
   std::array<std::uint8_t, pty::Line::kInputCapacity> bytes;
   while (!terminal_->host_present()) {
     const std::size_t count = terminal_->read(bytes);
     if (terminal_->host_present()) {
-      // The next host came during the read: these may be its bytes, and it must get its reply. If they have
-      // to wait for the bytes left behind, they are served in order, but without a reply.
+      // If the next host came during the read, these may be its bytes, and it must get its reply. If they
+      // have to wait for leftover bytes, they are served in order, but without a reply.
       pass_on_leftover();
       const auto read = std::span(bytes).first(count);
       if (leftover_.empty() && count <= line().room()) return on_presence(read);
@@ -202,8 +203,9 @@ void Port::add_leftover(std::span<const std::uint8_t> bytes) {
   leftover_.insert(leftover_.end(), taken.begin(), taken.end());
 }
 
-/// Passes on the bytes left behind, ahead of what the next host writes, as on a wire. It loops because with
-/// instant timing the line has room again immediately, and nothing would wake the loop for the rest.
+/// Passes on leftover bytes before the bytes of the next host, as on a real line. A loop is necessary because
+/// with instant timing the line has room again immediately, and nothing would wake the event loop for the
+/// rest.
 void Port::pass_on_leftover() {
   while (const std::size_t count = std::min(leftover_.size(), line().room())) {
     catch_up_();
@@ -213,8 +215,8 @@ void Port::pass_on_leftover() {
   }
 }
 
-/// Discards what others write to the pseudo-terminal while a guest has the line, or while all hosts are
-/// ignored.
+/// Discards bytes that others write to the pseudo-terminal while a guest uses the line, or while all hosts
+/// are ignored.
 void Port::ignore_terminal() {
   if (terminal_->poll_presence().opened)
     log_("line " + line().name() + ": a host has opened " + terminal_->path() +
@@ -222,7 +224,7 @@ void Port::ignore_terminal() {
               ? ", but this is a recording; the host is ignored until `what-if`"
               : ", but a TCP client has the line; the host is ignored until the client disconnects"));
   std::array<std::uint8_t, pty::Line::kInputCapacity> ignored;
-  constexpr int kMaxReadings = 32;  // enough for everything that the kernel holds
+  constexpr int kMaxReadings = 32;  // enough for all bytes in the kernel's buffer
   for (int i = 0; i < kMaxReadings && terminal_->read(ignored) > 0; ++i) {
   }
 }
@@ -276,7 +278,7 @@ std::optional<WallTime> Port::next_poll(bool clock_stands) {
   if (next_presence_ > WallTime{0}) next = next_presence_;
   if (is_on_demand_) return next;
   if (terminal_ && terminal_->has_presence_news()) next = WallTime{0};  // another port has collected the news
-  // With a stopped clock, the timeout of an incomplete frame would never expire.
+  // While the clock is stopped, the timeout of an incomplete frame would never expire.
   if (clock_stands && last_bytes_ > WallTime{0} && line().due())
     next = std::min(next.value_or(WallTime::max()), last_bytes_ + patience());
   return next;
@@ -290,7 +292,7 @@ void Port::poll(WallTime now, bool clock_stands) {
     on_presence({});
     keep_watch();
   }
-  // The second call is needed because a frame that has begun waits longer after the first pause.
+  // The second call is necessary because an incomplete frame waits longer after the first pause.
   if (clock_stands && !is_on_demand_ && last_bytes_ > WallTime{0} && now >= last_bytes_ + patience()) {
     if (std::exchange(has_paused_, true)) last_bytes_ = WallTime{0};
     world_.nothing_more(line_number_);
@@ -312,7 +314,7 @@ void Port::world_restored() {
     }
   }
   world_.host_settings(line_number_, host_settings());
-  last_bytes_ = wall_now();  // a frame may be half received
+  last_bytes_ = wall_now();  // a frame may be incomplete
   has_paused_ = false;
   flush();
 }
@@ -323,7 +325,7 @@ void Port::hand_over() {
     const std::size_t taken = hosts_are_ignored_  ? sent.size()
                               : guest_ != nullptr ? guest_->take(sent)
                               : terminal_         ? terminal_->write(sent)
-                                                  : sent.size();  // there is no host to read it
+                                                  : sent.size();  // no host reads the bytes
     if (taken == 0) break;                                // the host does not read
     world_.take_output(line_number_, taken);
     last_taken_ = wall_now();
@@ -360,7 +362,7 @@ void Port::flush() {
 
 bool Port::admit(Guest& guest) {
   if (is_unplugged() || hosts_are_ignored_) return false;
-  if (terminal_ && (is_watching_ || is_on_demand_)) on_presence({});  // it may have been opened just now
+  if (terminal_ && (is_watching_ || is_on_demand_)) on_presence({});  // it may have just been opened
   if (host_present()) return false;
   catch_up_();
   guest_ = &guest;

@@ -25,7 +25,7 @@ std::optional<gid_t> find_group(const std::string& name) {
 
 void share_port(const std::string& path, gid_t group) {
   constexpr mode_t kOwnerAndGroup = S_IRUSR | S_IWUSR | S_IRGRP | S_IWGRP;
-  // The group comes first, because the old group must not gain access.
+  // The group must be set first, because the old group must not gain access.
   if (chown(path.c_str(), static_cast<uid_t>(-1), group) != 0 || chmod(path.c_str(), kOwnerAndGroup) != 0) {
     throw pty::PortError(path + ": cannot be given to group " + std::to_string(group) + ": " +
                          std::strerror(errno) + "; expected a group that you are a member of");

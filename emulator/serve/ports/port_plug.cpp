@@ -1,4 +1,4 @@
-// Faults that unplug a port, and plug it in again.
+// Faults that unplug a port and plug it in again.
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -19,7 +19,7 @@ void Port::follow_plug() {
   }
 }
 
-/// Acts like an adapter that is pulled out: the link disappears, and hosts get a hang-up.
+/// Behaves like an unplugged adapter: the link disappears, and hosts get a hang-up.
 void Port::pull_out() {
   is_pulled_out_ = true;
   next_recovery_ = next_presence_ = WallTime{0};
@@ -32,7 +32,7 @@ void Port::pull_out() {
   terminal_.reset();
 }
 
-/// Makes a new pseudo-terminal behind the same link, with the permissions of the one before.
+/// Creates a new pseudo-terminal for the same link, with the permissions of the old one.
 void Port::plug_in() {
   is_pulled_out_ = false;
   next_recovery_ = WallTime{0};
@@ -47,7 +47,7 @@ void Port::plug_in() {
   }
   has_reported_ = false;
   const char* const path = terminal_->path().c_str();
-  // The group comes first, because the old group must not gain access.
+  // The group must be set first, because the old group must not gain access.
   if (access_.st_mode != 0 && chown(path, static_cast<uid_t>(-1), access_.st_gid) == 0)
     chmod(path, access_.st_mode & (S_IRWXU | S_IRWXG | S_IRWXO));
   watch();

@@ -41,7 +41,8 @@ bool is_private_folder(const std::string& path, const std::string& beginning) {
          (status.st_mode & 077) == 0;
 }
 
-/// Returns the last change of the folder and its content, or the latest time possible if that is unknown.
+/// Returns the time of the last change of the folder and its content, or the latest possible time if it is
+/// unknown.
 std::chrono::seconds last_change(const fs::path& folder) {
   struct stat status = {};
   if (::lstat(folder.c_str(), &status) != 0) return std::chrono::seconds::max();
@@ -61,7 +62,7 @@ void remove_left_overs(const std::string& beginning, std::chrono::seconds kept) 
   std::error_code error;
   for (const fs::directory_entry& entry : fs::directory_iterator(fs::path(beginning).parent_path(), error)) {
     const std::string path = entry.path().string();
-    // The folder that is named after the user's number holds the control sockets, and no process owns it.
+    // The folder with the user's number contains the control sockets, and belongs to no process.
     if (path == beginning + std::to_string(::geteuid()) || !is_private_folder(path, beginning)) continue;
     const Descriptor lock = locked(path);
     if (lock && last_change(path) < now - kept) fs::remove_all(path, error);

@@ -21,7 +21,7 @@ namespace {
 constexpr std::uint8_t kFromServer = 100;  // added to a command's code in answers
 constexpr std::string_view kSignature = "understudy";
 
-// There are no modem lines. A client that asks for them sees a device that is present and ready.
+// There are no modem lines. Clients that query them see a device that is present and ready.
 constexpr std::uint8_t kModemReady = 0x10 | 0x20 | 0x80;  // clear to send, data set ready, carrier
 constexpr std::uint8_t kLineEmpty = 0x20 | 0x40;          // nothing is waiting to be sent
 
@@ -31,7 +31,7 @@ constexpr std::uint8_t kResume = 9;
 
 }  // namespace
 
-/// A client's command. A command of another size is ignored; `size` 0 means any size.
+/// A client's command. A command with another size is ignored; `size` 0 means any size.
 struct Rfc2217::Row {
   std::uint8_t code;
   std::size_t size;
@@ -45,7 +45,7 @@ bool Rfc2217::receive_from_client(Value bytes) {
   return true;
 }
 
-/// Returns bytes for the line. A command applies to the bytes after it, so those before it are returned
+/// Returns bytes for the line. A command applies to the bytes after it, so the bytes before it are returned
 /// first.
 Rfc2217::Bytes Rfc2217::take_for_line(std::size_t room) {
   Bytes taken;
@@ -55,7 +55,7 @@ Rfc2217::Bytes Rfc2217::take_for_line(std::size_t room) {
     const auto command = reader_.take_command();
     if (!command) break;
     execute(*command);
-    // A receiver sees a break as a character of zeros without a stop bit.
+    // A receiver treats a break as a zero character without a stop bit.
     if (std::exchange(breaks_, false) && room > 0) return {0};
     if (takes_back_ || throws_away_) break;
   }
@@ -126,13 +126,13 @@ void Rfc2217::answer(std::uint8_t code, Value value) {
   telnet::append_subnegotiation(to_client_, body);
 }
 
-/// Answers a request for the signature. A client that sends its own gets no answer.
+/// Answers a request for the signature. A client's own signature is not answered.
 void Rfc2217::report_signature(Value value) {
   if (!value.empty()) return;
   answer(0, Bytes(kSignature.begin(), kSignature.end()));
 }
 
-// These commands answer with the setting that is then in effect. The value 0 only asks for the setting.
+// The answers to these commands contain the resulting setting. The value 0 only queries the setting.
 
 void Rfc2217::set_baud(Value value) {
   const std::uint32_t baud =
@@ -148,19 +148,19 @@ void Rfc2217::set_data_bits(Value value) {
   answer(2, static_cast<std::uint8_t>(settings_.data_bits));
 }
 
-/// Sets the parity: 1 to 5, in the order of pty::Parity.
+/// Sets the parity: 1 to 5 in the order of pty::Parity.
 void Rfc2217::set_parity(Value value) {
   if (value[0] >= 1 && value[0] <= 5) settings_.parity = static_cast<pty::Parity>(value[0] - 1);
   answer(3, static_cast<std::uint8_t>(static_cast<std::uint8_t>(settings_.parity) + 1));
 }
 
-/// Sets the stop bits. One and a half (3) is for characters of five bits, which no device here has.
+/// Sets the stop bits. One and a half stop bits (3) are for characters of five bits, which no device uses.
 void Rfc2217::set_stop_bits(Value value) {
   if (value[0] == 1 || value[0] == 2) settings_.stop_bits = value[0];
   answer(4, static_cast<std::uint8_t>(settings_.stop_bits));
 }
 
-/// Handles five controls; each has a code that queries it and others that set it. Only a break reaches the
+/// Handles five controls. Each has one code that queries it and others that set it. Only a break affects the
 /// line: a port has no modem lines, and flow control hardly matters for so little output.
 void Rfc2217::control(Value value) {
   const std::uint8_t wish = value[0];
@@ -195,7 +195,7 @@ void Rfc2217::mask_modem_state(Value value) {
   if (value[0] != 0) answer(7, static_cast<std::uint8_t>(kModemReady & value[0]));
 }
 
-/// Purges 1: what the client has not received; 2: what is not on the wire yet; 3: both.
+/// Purges data. 1: data that the client has not received; 2: data that is not transmitted yet; 3: both.
 void Rfc2217::purge(Value value) {
   throws_away_ = value[0] == 1 || value[0] == 3;
   takes_back_ = value[0] == 2 || value[0] == 3;

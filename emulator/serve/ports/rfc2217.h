@@ -1,5 +1,5 @@
-// A serial port over telnet: the host's speed, parity, data bits and stop bits are visible. A table has a
-// row for each command. Source: RFC 2217.
+// A serial port over telnet: clients can set the speed, parity, data bits and stop bits. A table has a row
+// for each command. Source: RFC 2217.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@ namespace understudy::emulator::serve {
 
 class Rfc2217 final : public ClientProtocol {
  public:
-  /// A host that sets nothing has the settings of `line`.
+  /// Hosts that set nothing have the settings of `line`.
   explicit Rfc2217(const pty::LineSettings& line);
 
   bool has_room() const override { return reader_.has_room() && to_client_.size() < kMaxUnsaid; }
@@ -39,7 +39,7 @@ class Rfc2217 final : public ClientProtocol {
   void answer(std::uint8_t code, std::uint8_t value) { answer(code, std::span(&value, 1)); }
   void report_modem_state();
 
-  // The functions in the table's rows, each with the received value.
+  // The functions in the table's rows. Each gets the received value.
   void report_signature(std::span<const std::uint8_t> value);
   void set_baud(std::span<const std::uint8_t> value);
   void set_data_bits(std::span<const std::uint8_t> value);
@@ -66,7 +66,7 @@ class Rfc2217 final : public ClientProtocol {
   std::uint8_t inbound_flow_ = 14;
   bool is_suspended_ = false;
   bool has_reported_modem_state_ = false;
-  bool breaks_ = false;  // a break goes onto the line next
+  bool breaks_ = false;  // the next thing on the line is a break
   bool takes_back_ = false;
   bool throws_away_ = false;
 };

@@ -23,7 +23,7 @@ namespace {
 
 constexpr std::size_t kOneReading = 4096;
 
-// A client whose machine disappears silently is detected after about half a minute.
+// A client whose machine disappears without closing is detected after about half a minute.
 constexpr int kIdleSeconds = 15;
 constexpr int kProbeSeconds = 5;
 constexpr int kProbes = 3;
@@ -40,9 +40,9 @@ void notice_dead_peers(int socket) {
   set_option(socket, IPPROTO_TCP, TCP_USER_TIMEOUT, 1000 * (kIdleSeconds + kProbes * kProbeSeconds));
 }
 
-/// Acknowledges received bytes immediately. A host that writes a frame in pieces, with Nagle's algorithm,
-/// sends the second piece only when the first is acknowledged. The kernel delays the acknowledgement by 40 ms
-/// unless this is set after each read.
+/// Acknowledges received bytes immediately. A host that writes a frame in pieces with Nagle's algorithm sends
+/// the second piece only when the first one is acknowledged. The kernel delays the acknowledgement by 40 ms
+/// unless this option is set after each read.
 void acknowledge_at_once(int socket) { set_option(socket, IPPROTO_TCP, TCP_QUICKACK, 1); }
 
 bool is_for_later() { return errno == EAGAIN || errno == EINTR; }
@@ -88,7 +88,7 @@ void TcpClient::send_out() {
   }
 }
 
-/// Applies faults to a reply. Its transaction is at the front, and its unit after the length
+/// Applies faults to a reply, which begins with its transaction. Its unit follows the length
 /// (modbus_tcp.cpp).
 void TcpClient::spoil_unsent() {
   constexpr std::size_t kTransaction = 1;

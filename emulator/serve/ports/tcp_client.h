@@ -1,4 +1,4 @@
-// One client of a TCP door: its socket and its protocol.
+// A client of a TCP door: its socket and its protocol.
 #pragma once
 
 #include <chrono>
@@ -17,7 +17,7 @@ namespace understudy::emulator::serve {
 struct Spoiling {
   bool has_wrong_transaction = false;
   bool has_wrong_unit = false;
-  std::optional<std::size_t> split_at{};  // the rest comes late
+  std::optional<std::size_t> split_at{};  // the remaining bytes are sent later
   std::chrono::nanoseconds split_for{0};
   std::optional<std::size_t> hangs_up_after{};  // after this many bytes
 };
@@ -33,7 +33,7 @@ class TcpClient {
   enum class ReadResult : std::uint8_t {
     nothing,          // for now, or because the client has sent everything
     protocol_bytes,   // bytes of its protocol
-    foreign_bytes,    // bytes outside its protocol; it will be released
+    foreign_bytes,    // bytes that are not part of its protocol; the client is disconnected
     connection_gone,  // nothing can be sent any more
   };
   /// Reads some of the bytes that the client has sent.
@@ -41,33 +41,34 @@ class TcpClient {
   /// Returns false if nothing is read from the client now, because it has closed its sending half or is ahead
   /// of the line.
   bool is_read() const { return !has_finished_sending_ && protocol_->has_room(); }
-  /// Returns true if it has closed its sending half. It still gets the answers to its requests.
+  /// Returns true if the client has closed its sending half. It still gets the answers to its requests.
   bool has_finished_sending() const { return has_finished_sending_; }
 
-  /// Sends as much as the network accepts. Reading shows whether the client has left.
+  /// Sends as many bytes as the network accepts. A later read shows whether the client has disconnected.
   void send_out();
   /// Returns the total number of bytes sent to the client.
   std::uint64_t sent() const { return sent_; }
   bool has_unsent() const { return !unsent_.empty(); }
 
-  // Faults. Bytes passed in one call are an answer if the protocol `has_messages`, otherwise a part of one.
+  // Applies faults to the next answer. The bytes of one call are a complete answer if the protocol
+  // `has_messages`, otherwise a part of an answer.
   void spoil(const Spoiling& spoiling) { spoiling_ = spoiling; }
   const Spoiling& spoiling() const { return spoiling_; }
-  /// Returns, once, how much later the rest of an answer is sent.
+  /// Returns, once, the delay of the rest of an answer.
   std::optional<std::chrono::nanoseconds> take_pause() { return std::exchange(pause_, {}); }
   bool has_rest() const { return !rest_.empty(); }
   void send_rest();
-  /// Returns true if its connection ends as soon as unsent bytes are sent.
+  /// Returns true if the connection ends as soon as all unsent bytes are sent.
   bool hangs_up() const { return hangs_up_; }
 
-  /// Closes the socket. Its requests are still executed.
+  /// Closes the socket. The client's requests are still executed.
   void forget_socket();
   bool is_gone() const { return !socket_; }
 
  private:
   Descriptor socket_;
   std::unique_ptr<ClientProtocol> protocol_;
-  ClientProtocol::Bytes unsent_;  // bytes it has not taken yet, at most as many as came at once
+  ClientProtocol::Bytes unsent_;  // at most as many bytes as were passed at once
   std::uint64_t sent_ = 0;
   bool has_finished_sending_ = false;
   void spoil_unsent();

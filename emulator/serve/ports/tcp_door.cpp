@@ -41,13 +41,13 @@ namespace understudy::emulator::serve {
 namespace {
 
 constexpr std::size_t kOneTaking = 4096;
-constexpr std::size_t kMaxLeft = 16'384;  // bytes from a client that has disconnected
+constexpr std::size_t kMaxLeft = 16'384;  // from a client that has disconnected
 
-// A client that has sent everything may wait this long for its replies while another wants the line.
+// A client that sends no more may wait this long for its replies while another client wants the line.
 constexpr std::chrono::nanoseconds kLongestGoodbye = std::chrono::seconds(1);
 
 constexpr std::size_t kBitsOfByte = 11;
-// The silence that ends a request, rounded up. The station cannot answer before it is over.
+// The pause that ends a request, rounded up. The station cannot answer before its end.
 constexpr std::size_t kSilence_bytes = 4;
 
 }  // namespace
@@ -103,12 +103,12 @@ std::unique_ptr<ClientProtocol> TcpDoor::make_protocol() {
 
 // --- clients that connect ------------------------------------------------------------------------
 
-/// Admits a client. A line has one owner, so a second client is refused, or waits while the first gets its
-/// last replies.
+/// Admits a client. A line has only one host, so a second client is refused, or waits while the first one
+/// gets its last replies.
 void TcpDoor::admit(Descriptor socket) {
   if (is_gateway() && clients_.size() >= kMaxMasters) return refuse();
   if (!is_gateway()) {
-    // The first client may just have sent its last bytes, or disconnected.
+    // The first client may just have sent its last bytes, or may have disconnected.
     while (!clients_.empty() && clients_.front()->is_read() && read_from(*clients_.front())) serve_line();
     serve_line();
     if (!clients_.empty()) {
@@ -145,8 +145,7 @@ void TcpDoor::let_in(Descriptor socket) {
 
 // --- input from clients --------------------------------------------------------------------------
 
-/// Handles input. The loop does not report the end of a client's sending half, so a departed client cannot
-/// receive either.
+/// Handles input. The loop reports a hang-up only for clients that can no longer receive either.
 void TcpDoor::on_client(TcpClient& client, std::uint32_t ready) {
   if ((ready & EventLoop::departed) != 0) {
     let_go(client);
@@ -156,7 +155,7 @@ void TcpDoor::on_client(TcpClient& client, std::uint32_t ready) {
   serve_line();
 }
 
-/// Reads from a client. Returns true if it has sent something.
+/// Reads from a client. Returns true if the client has sent something.
 bool TcpDoor::read_from(TcpClient& client) {
   const TcpClient::ReadResult result = client.read();
   if (result == TcpClient::ReadResult::nothing) return false;
@@ -190,8 +189,8 @@ std::uint64_t TcpDoor::news() const {
   return news;
 }
 
-/// Disconnects a client. The line still serves what it has sent; in Modbus TCP, that is one request, because
-/// each waits for the one before.
+/// Disconnects a client. The line still serves the bytes that the client has sent. In Modbus TCP, that is one
+/// request, because each request waits for the previous one.
 void TcpDoor::let_go(TcpClient& client) {
   loop_.unwatch(client.socket());
   if (!is_gateway()) return leave(take_rest(client));
@@ -219,7 +218,8 @@ bool TcpDoor::waits_for_reply() const {
   });
 }
 
-/// Gives the line the next request. Clients take turns. Returns false if there is none, or if it must wait.
+/// Puts the next request on the line. Clients take turns. Returns false if there is no request, or if it must
+/// wait.
 bool TcpDoor::serve_next() {
   if (waits_for_reply()) return false;
   for (std::size_t i = 0; i < clients_.size(); ++i) {
@@ -243,7 +243,7 @@ bool TcpDoor::serve_next() {
   return false;
 }
 
-/// Passes the clients' bytes to the line, as far as it has room, and the line's output to the clients.
+/// Passes the clients' bytes to the line as far as it has room, and passes the line's output to the clients.
 void TcpDoor::serve_line() {
   if (is_serving_) return;
   is_serving_ = true;
@@ -287,7 +287,7 @@ void TcpDoor::set_timer(std::chrono::nanoseconds time) {
 
 void TcpDoor::on_timer() {
   std::uint64_t times = 0;
-  if (read(timer_.get(), &times, sizeof times) < 0) return;  // the timer was set again meanwhile
+  if (read(timer_.get(), &times, sizeof times) < 0) return;  // meanwhile, the timer was set again
   expire();
 }
 
@@ -297,8 +297,8 @@ void TcpDoor::expire() {
   serve_line();
 }
 
-/// Takes output from the line. If a client reads more slowly, the line keeps the rest, up to a limit. A
-/// gateway takes everything, but sends no further request while a reply waits to be taken.
+/// Takes output from the line. If a client reads more slowly, the line buffers the rest, up to a limit. A
+/// gateway takes all bytes, but sends no further request while a reply is pending.
 std::size_t TcpDoor::take(std::span<const std::uint8_t> bytes) {
   if (clients_.empty()) return bytes.size();
   if (!is_gateway() && (clients_.front()->has_unsent() || !clients_.front()->protocol().listens())) return 0;
@@ -315,7 +315,7 @@ std::size_t TcpDoor::take(std::span<const std::uint8_t> bytes) {
 bool TcpDoor::has_all(const TcpClient& client) const {
   if (client.has_unsent() || client.has_rest()) return false;
   if (is_gateway()) return client.protocol().is_idle();
-  // A client that does not listen now will not receive anything later either.
+  // A client that does not listen now will not receive anything later.
   return port_.room() > 0 && (port_.is_quiet() || !client.protocol().listens());
 }
 
@@ -337,8 +337,7 @@ void TcpDoor::see_off() {
 
 // --- faults --------------------------------------------------------------------------------------
 
-/// Applies a fault: to the reply to the pending request on a gateway, otherwise to the next output of the
-/// line.
+/// Applies a fault to the reply to a gateway's pending request, or else to the next output of the line.
 void TcpDoor::spoil(const world::Fault& fault) {
   using Kind = world::Fault::Kind;
   for (const auto& client : clients_) {
@@ -362,7 +361,7 @@ void TcpDoor::hang_up() {
   leave({});
 }
 
-/// Leaves the line after the last client has left.
+/// Releases the line after the last client has left.
 void TcpDoor::leave(const ClientProtocol::Bytes& last) {
   news_ = news() + 1;
   clients_.clear();

@@ -1,6 +1,6 @@
-// A port's second entrance: TCP clients act as the line's host as if they had opened a pseudo-terminal. So
-// recordings, captures and wire time are the same for both. A line has one host: one client, or a gateway
-// whose clients take turns.
+// A port's TCP access: clients act as the line's host as if they had opened a pseudo-terminal. Therefore
+// recordings, captures and transmission times are the same for both. A line has one host: either a single
+// client, or a gateway whose clients take turns.
 #pragma once
 
 #include <chrono>
@@ -28,23 +28,23 @@ class TcpDoor final : private Port::Guest {
   static constexpr std::size_t kMaxMasters = 32;
 
   /// A door on demand serves a host in simulated time: nobody listens at the address, clients are passed to
-  /// admit(), their bytes are taken only by attend(), and its times are simulated.
+  /// admit(), their bytes are read only by attend(), and its timeouts are in simulated time.
   enum class Service : std::uint8_t { at_once, on_demand };
-  /// Adds the address to the port, which must outlive the door. Throws pty::PortError.
+  /// Adds the address to the port, which must outlive this object. Throws pty::PortError.
   TcpDoor(EventLoop& loop, Port& port, const world::TcpAddress& address,
           std::function<void(const std::string&)> log, Service service = Service::at_once);
   ~TcpDoor() override;
   TcpDoor(const TcpDoor&) = delete;
   TcpDoor& operator=(const TcpDoor&) = delete;
 
-  /// Takes a connected socket.
+  /// Admits the client on a connected socket.
   void admit(Descriptor socket);
 
   const world::TcpAddress& address() const { return address_; }
   const Port& port() const { return port_; }
-  /// Takes what the clients have sent, and sends them pending output.
+  /// Reads the bytes that the clients have sent, and sends pending output to them.
   void attend();
-  /// Returns when attend() has something to do although nobody sends, or nothing.
+  /// Returns when to call attend() even if nobody sends, or nothing.
   std::optional<SimTime> due() const { return due_; }
   /// Returns a number that changes when something was sent to a client, or a client disconnected.
   std::uint64_t news() const;
@@ -80,13 +80,13 @@ class TcpDoor final : private Port::Guest {
   world::TcpAddress address_;
   std::function<void(const std::string&)> log_;
   bool is_on_demand_;
-  Descriptor timer_;            // ends the wait for a reply, or for a client that has sent everything
-  std::optional<SimTime> due_;  // the same on demand
-  std::uint64_t news_ = 0;      // from clients that have left
+  Descriptor timer_;            // ends the wait for a reply, or for a client that sends no more
+  std::optional<SimTime> due_;  // the end of the same wait, for a door on demand
+  std::uint64_t news_ = 0;      // the sum for clients that have left
   std::vector<std::unique_ptr<TcpClient>> clients_;
-  std::size_t turn_ = 0;     // the client whose request is next
-  Descriptor next_;          // a client that waits until a finished one has its replies
-  bool is_serving_ = false;  // serve_line() is running; the line may send in the meantime
+  std::size_t turn_ = 0;     // the index of the client whose request is next
+  Descriptor next_;          // a client that waits until another one has its last replies
+  bool is_serving_ = false;  // serve_line() is running; the line may send during that time
   std::vector<std::unique_ptr<Listener>> listeners_;
 };
 

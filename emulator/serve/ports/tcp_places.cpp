@@ -72,7 +72,7 @@ int port_of(const Descriptor& listener) {
                                           : reinterpret_cast<sockaddr_in*>(raw)->sin_port);
 }
 
-/// Returns no descriptor on failure; errno then has the reason.
+/// Returns an empty descriptor on failure, and leaves the reason in errno.
 Descriptor listen_there(const addrinfo& place, bool is_one_of_several) {
   Descriptor listener(socket(place.ai_family, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
   if (!listener) return {};

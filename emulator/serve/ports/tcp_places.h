@@ -8,8 +8,8 @@
 
 namespace understudy::emulator::serve {
 
-/// Returns a socket for each address of the host ("localhost" is 127.0.0.1 and ::1), all at the same port.
-/// If `address` has no port, a free one is chosen and stored in it. Throws pty::PortError.
+/// Returns a socket for each address of the host ("localhost" is 127.0.0.1 and ::1), all with the same port.
+/// If `address` has no port, chooses a free port and stores it there. Throws pty::PortError.
 std::vector<Descriptor> listen_at(world::TcpAddress& address);
 
 }  // namespace understudy::emulator::serve

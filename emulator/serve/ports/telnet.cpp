@@ -53,8 +53,8 @@ std::optional<Command> Reader::take_command() {
   return command;
 }
 
-/// Skips a subnegotiation. Returns false if its end has not come yet. Skipped bytes are dropped, except one
-/// whose meaning depends on the next.
+/// Skips a subnegotiation. Returns false if its end has not been received yet. Drops all skipped bytes except
+/// one whose meaning depends on the next byte.
 bool Reader::skip_subnegotiation() {
   std::size_t at = 0;
   while (at + 1 < received_.size()) {
@@ -73,7 +73,7 @@ bool Reader::skip_subnegotiation() {
   return false;
 }
 
-/// Takes a subnegotiation. A command inside it breaks off the subnegotiation, which is then ignored.
+/// Takes a subnegotiation. A command inside it ends the subnegotiation, which is then ignored.
 std::optional<Command> Reader::take_subnegotiation() {
   Command command{.verb = kSubnegotiation, .option = received_[2], .body = {}};
   for (std::size_t at = 3; at + 1 < received_.size(); ++at) {
@@ -98,7 +98,7 @@ Bytes Options::begin() {
   for (Row& row : rows_) {
     printed.insert(printed.end(), {kIac, kDo, row.option});
     row.theirs = State::asked;
-    if (row.option == kComPort) continue;  // the client must offer this
+    if (row.option == kComPort) continue;  // the client must offer this option
     printed.insert(printed.end(), {kIac, kWill, row.option});
     row.ours = State::asked;
   }
@@ -115,7 +115,7 @@ Bytes Options::answer(const Command& command) {
   State& state = is_about_us ? row->ours : row->theirs;
   const State before = state;
   state = is_on ? State::on : State::off;
-  // This is the client's answer to our own request, and needs no answer.
+  // This is the client's answer to a request of ours, and is not answered.
   if (before == State::asked || before == state) return {};
   return {kIac, is_on ? yes : no, command.option};
 }

@@ -1,4 +1,4 @@
-// The part of telnet that a serial port needs: separates bytes from commands, and negotiates options.
+// The part of telnet that a serial port needs: it separates bytes from commands, and negotiates options.
 // Source: RFC 854, 855, 856, 858.
 #pragma once
 
@@ -33,7 +33,7 @@ struct Command {
   Bytes body;               // the part of a subnegotiation after its option
 };
 
-/// Splits received bytes in their order.
+/// Separates received data and commands, in order.
 class Reader {
  public:
   static constexpr std::size_t kMaxReceived = 4096;
@@ -43,10 +43,10 @@ class Reader {
   void append(std::span<const std::uint8_t> bytes) {
     received_.insert(received_.end(), bytes.begin(), bytes.end());
   }
-  /// Adds bytes up to the next command, until there are `max`. If they are not binary, the 0 after a
-  /// carriage return is not passed to the line.
+  /// Adds bytes up to the next command, until there are `max`. In text mode, the 0 after a carriage return is
+  /// omitted.
   void take_data(Bytes& taken, std::size_t max, bool is_binary);
-  /// Returns the next command if no byte precedes it and it is complete. A malformed one becomes a kNop.
+  /// Returns the next command if no data precede it and it is complete. A malformed command becomes a kNop.
   std::optional<Command> take_command();
 
  private:
@@ -55,17 +55,16 @@ class Reader {
   void drop(std::size_t count);
 
   Bytes received_;
-  bool is_skipping_ = false;  // an overlong subnegotiation
+  bool is_skipping_ = false;  // the subnegotiation is too long
   bool was_return_ = false;
 };
 
-/// The options of both sides. Only requests that change something are answered, so that two sides never
-/// negotiate without end.
+/// The options of both sides. Only requests that change something are answered, so that the negotiation ends.
 class Options {
  public:
-  /// Returns the requests for the options that we want.
+  /// Returns requests for all wanted options.
   Bytes begin();
-  /// Returns the answer to will, wont, do or dont, or none if nothing changes.
+  /// Returns the answer to will, wont, do or dont; empty if nothing changes.
   Bytes answer(const Command& command);
 
   bool we_are_binary() const { return rows_[0].ours == State::on; }
@@ -83,9 +82,9 @@ class Options {
   std::array<Row, 3> rows_{Row{kBinary}, Row{kSuppressGoAhead}, Row{kComPort}};
 };
 
-/// Appends bytes of the line in the form in which they are sent.
+/// Appends bytes of the line, encoded for transmission.
 void append_data(Bytes& sent, std::span<const std::uint8_t> bytes, bool is_binary);
-/// Appends a subnegotiation in the form in which it is sent. `body` begins with the option.
+/// Appends a subnegotiation, encoded for transmission. `body` begins with the option.
 void append_subnegotiation(Bytes& sent, std::span<const std::uint8_t> body);
 
 }  // namespace understudy::emulator::serve::telnet

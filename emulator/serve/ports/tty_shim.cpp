@@ -13,7 +13,7 @@ std::string library_path(const std::string& name) {
   std::error_code error;
   const fs::path folder = fs::read_symlink("/proc/self/exe", error).parent_path();
   for (const fs::path& beside :
-       {folder, folder.parent_path()}) {  // the build folder, or the installed folder
+       {folder, folder.parent_path()}) {  // either the build folder or the installed folder
     const fs::path path = beside / "lib/understudy" / name;
     if (fs::exists(path, error)) return path.string();
   }

@@ -1,5 +1,5 @@
-// Finds the libraries that are preloaded into hosts: one lets hosts that insist on parity use a
-// pseudo-terminal (pty/tty_shim.cpp), the other also puts hosts into simulated time (pty/host_time/).
+// Finds the libraries that are preloaded into hosts: one allows hosts that require parity to use a
+// pseudo-terminal (pty/tty_shim.cpp), the other one also puts hosts into simulated time (pty/host_time/).
 #pragma once
 
 #include <stdexcept>
@@ -18,8 +18,8 @@ inline constexpr const char* kHostTimeLibrary = "host_time.so";
 /// Throws NoTtyShim.
 std::string library_path(const std::string& name);
 
-/// Returns LD_PRELOAD with the library in front of libraries that are preloaded already. Throws NoTtyShim if
-/// its path cannot be written there.
+/// Returns LD_PRELOAD with the library before any libraries that are already preloaded. Throws NoTtyShim if
+/// the variable cannot contain its path.
 std::string preload_with(const std::string& name);
 
 }  // namespace understudy::emulator::serve
