@@ -43,7 +43,7 @@ struct ChoiceError : std::runtime_error {
 };
 
 /// Returns, for each row, the number of the option in effect (0 is the default). Throws ChoiceError for an
-/// unknown id or option, naming what was expected.
+/// unknown id or option, with the expected values.
 std::vector<std::uint8_t> resolve_choices(std::span<const ChoiceRow> rows,
                                           const std::map<std::string, std::string>& overrides);
 

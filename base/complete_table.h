@@ -1,5 +1,6 @@
-// A complete table holds exactly one handler for each key. A constexpr table does not compile if a key has no
-// handler or more than one. Interpreters use such tables for their opcodes, and devices for their commands:
+// A complete table contains exactly one handler for each key. A constexpr table does not compile if a key has
+// no handler or more than one. Interpreters use such tables for their opcodes, and devices for their
+// commands:
 //
 //   constexpr HandlerRow<Verb, Action> kOutputActions[] = {{Verb::set_port, set_port}, ...};
 //   constexpr CompleteTable<Verb, Action> kActions(kVerbs, kMotionActions, kOutputActions);

@@ -16,8 +16,8 @@ class ProgramWatch {
   /// The instruction begins. This is reported once, even if the instruction waits. `times` is more than 1
   /// only for PLC scans that are skipped in bulk.
   virtual void runs(int part, int line, std::int64_t times) = 0;
-  /// The instruction has made a decision: a jump is taken, a condition or contact holds, or a wait is over at
-  /// once.
+  /// The instruction has made a decision: a jump is taken, a condition or contact holds, or a wait ends
+  /// immediately.
   virtual void decides(int part, int line, bool outcome, std::int64_t times) = 0;
 };
 

@@ -208,7 +208,7 @@ CircleThrough circle_through(const Flat& middle, const Flat& end, std::string_vi
   return {{end.x / 2 - side * end.y, end.y / 2 + side * end.x}, doubled_area > 0 ? sweep : -sweep};
 }
 
-/// Makes an arc or a spiral about `centre` through a sweep.
+/// Creates an arc or a spiral about `centre` through a sweep.
 Path swept(const ArcDemand& demand, const Point& centre, double sweep_rad, double growth_u_turn,
            const Point& rise) {
   const Flat middle = demand.in_plane(centre);

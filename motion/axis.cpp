@@ -36,8 +36,8 @@ bool not_begun(const PulseDrive& drive, Instant at) {
   return drive.elapsed_s(at) <= 0 && drive.sample(at).position_u <= 0;
 }
 
-/// Returns the drive's position, but never one behind a pulse that was already sent, because moments are
-/// rounded.
+/// Returns the drive's position. Because moments are rounded, it is corrected if it precedes a pulse that was
+/// already sent.
 Sample forward_sample(const PulseDrive& drive, Instant at) {
   Sample here = drive.sample(at);
   here.position_u = std::max(here.position_u, static_cast<double>(drive.sent_pulses));

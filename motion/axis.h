@@ -150,7 +150,7 @@ struct AxisSettings {
   bool operator==(const AxisSettings&) const = default;
 };
 
-/// Throws BadMotion for settings that no axis can have. Use it for settings from outside, too.
+/// Throws BadMotion for settings that no axis can have. Also use it for settings from outside.
 void check(const AxisSettings& settings);
 
 /// The command that an axis is executing.

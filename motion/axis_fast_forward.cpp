@@ -18,7 +18,7 @@ Tick Axis::quiet_until(Tick next, Tick limit, const Environment& environment, Tr
   if (last < next || travel_pulses < low || travel_pulses > high) return none;
   if (drive.drive != Drive::running) return last;
   // A segment has one direction, but rounding may send a pulse a tick early. So the last pulse before a
-  // possible event is left to single ticks. If that pulse is inside the range, all pulses before it are, too.
+  // possible event is left to single ticks. If that pulse is inside the range, all pulses before it also are.
   const bool upwards = drive.direction > 0;
   const auto is_inside = [&](Tick tick) {
     const std::int64_t travel = travel_ahead(tick);

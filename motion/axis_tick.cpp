@@ -274,8 +274,7 @@ Cause AxisTick::against(int direction) const {
   return axis_.slowing && why != Cause::servo_off ? Cause::none : why;
 }
 
-/// Begins to move in `direction` by carried pulses. Backlash is sent at once, because it has no time of its
-/// own.
+/// Begins to move in `direction` by carried pulses. Backlash is sent immediately, because it has no duration.
 bool AxisTick::sets_out(int direction, Instant at) {
   if (const Cause why = against(direction); why != Cause::none) {
     // At a limit, a wheel has no effect; a path cannot continue.

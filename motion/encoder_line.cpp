@@ -45,7 +45,7 @@ std::optional<std::int64_t> EncoderLine::steps_until(std::int64_t travel, int di
   const auto is_present = [&](std::int64_t steps) {
     return std::abs(at(travel + direction * steps) - before) >= count_steps;
   };
-  // The slope alone gives the number of pulses to within a few pulses.
+  // The slope alone determines the number of pulses to within a few pulses.
   const std::int64_t about =
       bounded(Wide{std::min(count_steps, kFarthestCount)} * divider * pulses / (Wide{counts} * factor));
   const std::int64_t leeway = pulses / counts + bounded(Wide{divider} * pulses / (Wide{counts} * factor)) + 2;

@@ -219,7 +219,7 @@ bool PathRun::slowing_for_the_end(Tick now) const {
   return stop.end_position_u >= chain_end_u_ - 1e-9 * (1 + chain_end_u_);
 }
 
-/// Makes a chain from the joined paths at the front of the queue, and begins it.
+/// Creates a chain from the joined paths at the front of the queue, and begins it.
 void PathRun::lay_out_chain(Tick begin_at) {
   chain_count_ = 0;
   chain_end_u_ = 0;

@@ -80,7 +80,7 @@ std::optional<double> PathTick::first_beyond(std::size_t i) const {
 std::optional<double> PathTick::first_beyond(std::size_t i, double from_u, double to_u) const {
   const Axis& mine = *axis(i);
   const auto travel = [&](double along_u) {
-    // At the end of the tick, the axis is where the run puts it.
+    // At the end of the tick, the axis is at the position determined by the run.
     if (along_u >= gone_.to_u) return target_[i];
     return path_.travel_at(i, path_.run.place_on(gone_, along_u)[static_cast<Eigen::Index>(i)]);
   };

@@ -57,7 +57,7 @@ double solve_with_root(const Sum& sum, double start_u_s, double twice_distance_u
   // so Newton's method approaches the root from above and never passes it.
   const double missing = twice_distance_u - 2 * start_u_s * sum.b;
   if (missing <= 0) return 0;
-  // Each power of y alone gives a bound. The smallest bound is at most four times too large.
+  // Each power of y alone yields a bound. The smallest bound is at most four times too large.
   double y = above_cube_root(missing / sum.c);
   if (start_u_s > 0) y = std::min(y, missing / (2 * start_u_s * sum.c));
   if (const double square = 2 * start_u_s * sum.a + sum.b; square > 0)

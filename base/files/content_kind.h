@@ -1,6 +1,6 @@
 // Recognizes the kind of a file from its first bytes. An output replaces only a file of its own kind, so a
-// mistyped path does not destroy another file. A reader that receives the wrong kind of file can name the
-// kind that it found.
+// mistyped path does not destroy another file. A reader that receives the wrong kind of file can report which
+// kind it is.
 #pragma once
 
 #include <cstddef>

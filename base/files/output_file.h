@@ -55,8 +55,8 @@ struct FileAccess {
 };
 /// Returns nothing if the file does not exist.
 std::optional<FileAccess> access_of(const std::string& path);
-/// Gives the file this owner, group and mode as far as this process is allowed to: an ordinary user cannot
-/// change the owner.
+/// Sets the file's owner, group and mode to these values as far as this process is allowed to: an ordinary
+/// user cannot change the owner.
 void give_access(int file, const FileAccess& access);
 void give_access(const std::string& path, const FileAccess& access);
 /// Creates an empty file with these permissions. Errors are ignored: opening the file later reports them.

@@ -19,7 +19,7 @@ class SharedText {
   explicit SharedText(std::string text);
 
   const std::string& text() const { return held_->text; }
-  /// The digest of the content, computed once when the text is made.
+  /// The digest of the content, computed once when the text is created.
   std::uint64_t digest() const { return held_->digest; }
   /// Compares contents.
   bool operator==(const SharedText& other) const {

@@ -243,7 +243,7 @@ inline void StateReader::read_shared(SharedText& value) {
   shared_ = shared_->subspan(1);
 }
 
-/// Saves a class that holds its state as one value: save() returns it, and restore() checks and assigns it.
+/// Saves a class whose state is a single value: save() returns it, and restore() checks and assigns it.
 template <class T>
 struct StateHeldBy {
   static void write(const T& value, StateWriter& writer) { writer.write(value.save()); }

@@ -1,4 +1,4 @@
-// Thrown for bytes or values that are not a valid state of the object that they are meant for.
+// Thrown for bytes or values that are not a valid state of the object for which they are intended.
 #pragma once
 
 #include <cstdint>

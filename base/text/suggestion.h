@@ -1,4 +1,4 @@
-// Makes the suggestion in a message about an unknown word.
+// Creates the suggestion in a message about an unknown word.
 #pragma once
 
 #include <optional>

@@ -185,7 +185,7 @@ class Device {
  private:
   friend struct StateOf<Device>;  // device_state.cpp
 
-  // Members that every tick needs come first. The other members are behind the first cache line.
+  // Members that every tick needs come first. The other members follow the first cache line.
   const Model& model_;
   Tick now_ = 0;
   bool powered_ = false;

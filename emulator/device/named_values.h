@@ -14,7 +14,7 @@ namespace understudy::emulator {
 
 class NamedValues {
  public:
-  /// Returns nothing if there is no value of that name.
+  /// Returns nothing if there is no value with that name.
   virtual std::optional<double> value_named(std::string_view name) const = 0;
   /// Returns the first tick after `done` in which the value may change merely because time passes, or kNever
   /// if it does not depend on time.

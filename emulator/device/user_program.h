@@ -14,7 +14,7 @@
 
 namespace understudy::emulator {
 
-/// The present position of a program. A device that runs several programs at once has several positions.
+/// The present position of a program. A device that runs several programs concurrently has several positions.
 struct ProgramLocation {
   enum class State : std::uint8_t { stopped, running, waiting, failed };
   std::string program;  // "MAIN", "P1"; empty if there is only one

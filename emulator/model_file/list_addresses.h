@@ -38,7 +38,7 @@ struct WireAddress {
 /// Returns nothing if the number is not possible with this reading.
 std::optional<WireAddress> wire_address(const PrintedAddress& printed, AddressReading reading);
 
-/// Collects evidence about what the addresses in a list count.
+/// Collects evidence about the unit in which a list counts addresses.
 struct AddressEvidence {
   /// `table` is the table in the row's own cell, if it has one. `holds_words` is true if the row's type is
   /// not a bit.

@@ -1,5 +1,5 @@
-// Parses the numbers in a list in the form that manuals use, either in counts or, with decimals, in the unit.
-// Also parses ranges and enumerations.
+// Parses numbers, ranges and enumerations in the notation of manuals. A number without decimals is a count;
+// with decimals, it is in the unit of its register.
 #pragma once
 
 #include <cstdint>

@@ -143,7 +143,7 @@ class ListReader {
     }
   }
 
-  /// Returns false if it is unclear what the addresses count.
+  /// Returns false if the unit of the addresses is unclear.
   bool decide_addresses() {
     const auto guessed = reading_.guesses_addresses ? evidence_.likely() : evidence_.certain();
     if (reading_.addresses) {

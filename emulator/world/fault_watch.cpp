@@ -26,7 +26,7 @@ namespace {
 
 using Kind = Fault::Kind;
 
-constexpr int kDeviceBusy = 6;  // the Modbus exception of that name
+constexpr int kDeviceBusy = 6;  // the Modbus exception with that name
 
 pty::WireFault stage_of(const Fault& fault) {
   using Stage = pty::WireFault::Kind;

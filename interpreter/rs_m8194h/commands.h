@@ -88,7 +88,7 @@ constexpr std::string_view name_of(std::uint16_t code) {
 inline constexpr std::array kDownloadVerbs = {Verb::mp_create, Verb::mp_close, Verb::isr_create,
                                               Verb::isr_close};
 
-/// Macro lines that the interpreter executes itself. Some have a real-time code, too.
+/// Macro lines that the interpreter executes itself. Some also have a real-time code.
 inline constexpr std::array kFlowVerbs = {
     Verb::set_var, Verb::set_rvar,  Verb::var_calculate, Verb::for_,       Verb::next,        Verb::exit_for,
     Verb::if_,     Verb::else_,     Verb::end_if,        Verb::goto_,      Verb::label,       Verb::timer,

@@ -1,4 +1,4 @@
-// The trigger table: what each FRnet input starts without a request from the host.
+// The trigger table: the actions that FRnet inputs start without a request from the host.
 #pragma once
 
 #include <array>

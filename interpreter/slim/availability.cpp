@@ -23,7 +23,7 @@ constexpr Verb kForHosts[] = {
     Verb::download,     Verb::exit,           Verb::list_parameters, Verb::reboot,
 };
 
-/// Commands with which a host changes the memory. On some machines, programs can use them, too.
+/// Commands with which a host changes the memory. On some machines, programs can also use them.
 constexpr Verb kSaves[] = {Verb::save_data, Verb::save_parameters, Verb::save_program,
                            Verb::default_parameters};
 

@@ -162,7 +162,7 @@ enum class Condition : std::uint8_t {
 enum class Printed : std::uint8_t { no, yes, nothing };
 
 struct CommandRow {
-  std::string_view command;  // "Tp" in front: may have a module; "?": a query
+  std::string_view command;  // "Tp" as a prefix: may have a module; "?": a query
   std::string_view syntax;   // as the manual writes it; with "=": an assignment
   std::string_view meaning;
   std::string_view group;

@@ -32,7 +32,7 @@ constexpr bool is_editing(const Editor& editor) { return editor.mode != Editor::
 Error begin_edit(Editor& editor, Program& program, const Command& command, const Options& options = {});
 
 /// Handles a line that arrives during editing. A line with an error is not stored, and editing continues,
-/// because the next line is meant for the program, too. A line that contains ESC (0x1B) ends editing and is
+/// because the next line also belongs to the program. A line that contains ESC (0x1B) ends editing and is
 /// not stored.
 Error enter_line(Editor& editor, Program& program, std::string_view text, const Options& options = {});
 

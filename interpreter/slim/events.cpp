@@ -84,7 +84,7 @@ Error test_condition(Condition condition, std::span<const Operand> operands, con
   double variable = 0;
   if (const Error error = number_of(operands[0], machine, comparand); error != Error::none) return error;
   if (const Error error = number_of(operands[1], machine, variable); error != Error::none) return error;
-  // A real variable is a float32, so the comparand must be a float32, too. Otherwise, 0.1 would never equal
+  // A real variable is a float32, so the comparand must also be a float32. Otherwise, 0.1 would never equal
   // R0=0.1.
   if (!holds_integer(operands[1].kind)) comparand = static_cast<float>(comparand);
   holds = compare(condition, comparand, variable);

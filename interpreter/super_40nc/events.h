@@ -54,7 +54,7 @@ enum class Reaction : std::uint8_t {
   forget,        // becomes idle: drops the pointer, calls, waits and held motions; motors continue
   restart,       // outputs the END signal, and makes a fresh start
   stop_motors,   // stops the motors, and stays idle
-  stop,          // stops the motors at once, and forgets
+  stop,          // stops the motors immediately, and forgets
   broken,        // forgets; the machine has already stopped the motors
   motions_wait,  // the next motion line waits
   rest_waits,    // the frozen motion continues only afterwards

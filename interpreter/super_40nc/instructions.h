@@ -296,8 +296,8 @@ inline constexpr std::array<InstructionRow, kOpCount> kInstructions = [] {
 
 constexpr const InstructionRow& row_of(Op op) { return kInstructions[static_cast<std::size_t>(op)]; }
 
-/// Checks that the number of steps matches the number of fields. The target of a jump has a step of its own,
-/// and CWR and CCWR have four steps.
+/// Checks that the number of steps matches the number of fields. The target of a jump occupies a separate
+/// step, and CWR and CCWR have four steps.
 consteval bool table_makes_sense() {
   for (std::size_t i = 0; i < kInstructions.size(); ++i) {
     const InstructionRow& row = kInstructions[i];

@@ -78,7 +78,7 @@ class Ladder {
   const std::vector<std::uint32_t>& timers() const { return timers_; }  // indices of steps
 
   /// Returns everything that a scan may read, without duplicates. If none of it has changed since a scan that
-  /// changed nothing, another scan will not change anything either. Special contacts and registers may be
+  /// changed nothing, another scan will not change anything. Special contacts and registers may be
   /// computed, so the device must check those itself.
   const std::vector<Operand>& reads() const { return reads_; }
 

@@ -1,7 +1,7 @@
-// Models the memory behind a register image: an EEPROM, and optionally battery-backed RAM or FRAM. A write to
-// a persistent register is queued and takes time; afterwards, the value survives power-off. In battery-backed
-// RAM or FRAM, a register survives as soon as it is written. The class is a value: it can be copied and
-// compared.
+// Models the persistent memory for a register image: an EEPROM, and optionally battery-backed RAM or FRAM. A
+// write to a persistent register is queued and takes time; afterwards, the value survives power-off. In
+// battery-backed RAM or FRAM, a register survives as soon as it is written. The class is a value: it can be
+// copied and compared.
 #pragma once
 
 #include <cstdint>

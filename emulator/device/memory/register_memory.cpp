@@ -26,7 +26,7 @@ namespace {
 using List = NvEntryError::List;
 
 /// Returns true if a register may contain a value. The value may be out of range if the policy stores any
-/// value, or if half of a pair can be written alone. Reals that are not finite pass, too, because an image
+/// value, or if half of a pair can be written alone. Reals that are not finite also pass, because an image
 /// written by hand cannot contain them.
 bool may_hold(const MapPolicy& policy, const RegisterRow& row, Value value) {
   const bool is_odd = row.type == Type::f32 && !std::isfinite(real_of(value));

@@ -12,7 +12,7 @@
 namespace understudy::emulator {
 
 /// Throws StateError unless each register in a restored image and in the stored values has a value that a
-/// write or a memory image can give it.
+/// write or a memory image can assign.
 void check_restored_registers(const RegisterBank& bank, std::span<const std::uint32_t> image,
                               std::span<const std::uint32_t> content);
 

@@ -1,5 +1,5 @@
-// Named texts that a device stores immediately, such as files, recipes and macros. The class is a value,
-// whose copies share the texts. The model's table lists the kinds and their limits.
+// Named texts that a device stores immediately, such as files, recipes and macros. Copies of this class share
+// the texts. The model's table lists the kinds and their limits.
 #pragma once
 
 #include <cstddef>

@@ -221,8 +221,8 @@ void take_effect(RegisterBank& bank, const Change& change) {
   if (!row.is_view) bank.register_written(row, static_cast<std::size_t>(change.place.slot));
 }
 
-/// Makes the changes in ascending order. Depending on the policy, either stores all of them before applying
-/// their effects, or does both for each register in turn.
+/// Performs the changes in ascending order. Depending on the policy, either stores all of them before
+/// applying their effects, or does both for each register in turn.
 void carry_out(RegisterBank& bank, Changes& changes) {
   std::span all = std::span(changes.all).first(changes.count);
   const auto diverted = std::remove_if(

@@ -13,13 +13,13 @@
 
 namespace understudy::emulator {
 
-/// Reads consecutive 16-bit words from `first` on in the order of the wire. In tables of bits, each word
-/// contains one bit.
+/// Reads consecutive 16-bit words, starting at `first`, in the order of transmission. In tables of bits, each
+/// word contains one bit.
 Objection read_request(const RegisterBank& bank, Table table, std::uint16_t first,
                        std::span<std::uint16_t> words);
 Objection write_request(RegisterBank& bank, Table table, std::uint16_t first,
                         std::span<const std::uint16_t> words, bool is_single = false);
-/// Reads consecutive bits, packed as on the wire: the first bit is the lowest bit of the first byte.
+/// Reads consecutive bits, packed for transmission: the first bit is the lowest bit of the first byte.
 Objection read_bits_request(const RegisterBank& bank, Table table, std::uint16_t first, std::size_t count,
                             std::span<std::uint8_t> packed);
 

@@ -133,7 +133,7 @@ void execute(AxisState& axis, const AxisBinding& binding, Command command, const
     case begin:
     case join: break;
   }
-  axis.direction_is_spent = true;  // a host must release its command and give it again
+  axis.direction_is_spent = true;  // a host must release its command and issue it again
   if (command == Command::home) return go_home(axis, binding, numbers, now);
   std::int64_t distance = 0;
   if (command == Command::start) {
@@ -190,7 +190,7 @@ bool note_events(AxisState& axis, const AxisBinding& binding) {
   if (has_ended && axis.motor.task == motion::Task::none) {  // no other motion has begun in the meantime
     const motion::Cause cause = axis.motor.cause;
     if (cause == motion::Cause::arrived) axis.arrived = true;
-    // The host must give its command again, unless the axis stopped to reverse.
+    // The host must issue its command again, unless the axis stopped to reverse.
     if (cause != motion::Cause::arrived && cause != motion::Cause::stopped) axis.direction_is_spent = true;
   }
   return has_ended || (events & motion::bit(motion::Event::homed)) != 0;

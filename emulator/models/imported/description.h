@@ -93,7 +93,7 @@ enum class Number : std::uint8_t {
 };
 inline constexpr std::size_t kNumbers = 10;
 
-/// The commands that hosts give to an axis, in the order in which they take effect if one request contains
+/// The commands that hosts issue to an axis, in the order in which they take effect if one request contains
 /// several.
 enum class Command : std::uint8_t {
   stop_at_once,

@@ -166,7 +166,7 @@ Model ImportedModel::made_model() {
                      .pulses_per_revolution = axis.pulses_per_revolution});
   }
   for (const auto& [id, text] : line.identity) identity_.push_back({.id = id, .text = text});
-  // Registers that are bound to something show best what the controller is doing.
+  // Registers that are bound to an axis or a terminal show best what the controller is doing.
   for (std::size_t i = 0; i < shown_.size() && state_names_.size() < kMaxStateRegisters; ++i) {
     const RegisterRow& row = map_.rows()[i];
     if (!shown_[i].empty() && row.access != Access::write) state_names_.push_back(map_.unique_name(row, 0));

@@ -207,7 +207,7 @@ bool Requests::diverts(const Place& place, std::uint32_t bits) {
   return true;
 }
 
-/// Clears what was read, if a choice requires it; by default, reading clears nothing.
+/// Clears the data that were read, if a choice requires this; by default, reading clears nothing.
 void Requests::read_answered(const RegisterRequest& request) {
   if (request.table != Table::input) return;
   InterruptState& interrupts = module_.interrupts.state();

@@ -39,7 +39,7 @@ class AxisCommands : public AxisReactions {
   void show_pwm(std::uint8_t percent);
 
  private:
-  /// Returns true if a command can begin; otherwise, does what its outcome requires.
+  /// Returns true if a command can begin; otherwise, performs the action for its outcome.
   bool may_begin(Outcome outcome, const KeptCommand& what);
   void carry_out_kept();
   /// Called when a motion has begun.

@@ -23,7 +23,7 @@ class Memory {
   /// Saves a register that a host or a program has written. `was_saving` indicates whether the EEPROM was
   /// being written when the request arrived; the first register of a request sets it.
   void save(const RegisterRow& row, std::size_t slot, std::optional<bool>& was_saving);
-  /// Makes NEW_PWD the password.
+  /// Changes the password to NEW_PWD.
   void take_password();
   /// Compares PWD_Input with the password, and locks or unlocks the program.
   void judge_lock();

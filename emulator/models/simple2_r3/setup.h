@@ -67,7 +67,7 @@ struct alignas(64) Setup {
                                                  : option("limit_reaction", "none"));
   }
   bool keeps(const RegisterRow& row) const {
-    // The manual does not print a star (persistent) at NEW_PWD.
+    // The manual does not mark NEW_PWD with a star (persistent).
     return row.persistent || (chose(option("password_kept", "yes")) && row.name == "NEW_PWD");
   }
 

@@ -56,7 +56,7 @@ ReadProgram read_program(const Setup& setup, std::string_view text) {
         : error == Error::address     ? "begins with a label that another line has"
                                       : lang::why_not_command(std::string_view(line).substr(first));
     read.mistakes.push_back({number, static_cast<int>(first) + 1, what});
-    if (error == Error::buffer_full) break;  // the remaining lines would not fit, either
+    if (error == Error::buffer_full) break;  // none of the remaining lines would fit
     if (read.mistakes.size() >= kMaxMistakes) break;
   }
   return read;

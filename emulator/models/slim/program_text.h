@@ -27,7 +27,7 @@ ProgramPart part_of(const ReadProgram& read);
 /// Returns a hash that identifies the program.
 std::uint64_t mark_of(const lang::Program& program);
 
-/// Returns true if PZ holds the program.
+/// Returns true if PZ has paused the program.
 bool program_is_held(const State& state, const Setup& setup);
 std::vector<ProgramLocation> program_locations(const State& state, const Setup& setup);
 

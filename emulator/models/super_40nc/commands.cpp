@@ -123,7 +123,7 @@ void Commands::apply_stops() {
   }
 }
 
-/// Executes what the panel does when its pages are turned.
+/// Performs the actions of the panel when its pages are turned.
 void Commands::apply_pages() {
   if (rises(m85::kParameterPageLeft)) {
     const bool renews_all = chose(option("parameter_moment", "when_m8500_rises"));

@@ -93,8 +93,8 @@ bool is_register(const Model& model, std::string_view name) {
   return find_register(model, name, model.firmwares.back()).has_value();
 }
 
-/// Reads the registers and blocks of a memory whose content is in the bench file. Such a memory has no file
-/// of its own, so changes are lost after the run.
+/// Reads the registers and blocks of a memory whose content is in the bench file. Such a memory has no
+/// separate file, so changes are lost after the run.
 NvImage read_memory(const YamlFields& field, const Model& model, Diagnostics& diagnostics) {
   NvImage image{.model = std::string(model.name), .firmware = {}, .registers = {}};
   diagnostics.attempt([&] { field.require_map(); });
@@ -205,7 +205,7 @@ bool take_away(const SettingError& error, DeviceSettings& settings, const Model&
   return !std::exchange(settings.bauds, {}).empty();  // the DIP switches require another speed
 }
 
-/// Reports the error at the entry, or, if the entry has no position of its own, at the memory.
+/// Reports the error at the entry, or, if the position of the entry is unknown, at the memory.
 [[noreturn]] void fail(const YamlFields& nv, const NvEntryError& error) {
   if (!nv.is_map()) nv.fail(error.what());
   const bool is_block = error.list == NvEntryError::List::blocks;

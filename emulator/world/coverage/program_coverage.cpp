@@ -42,8 +42,7 @@ struct CountedProgram {
       counts[i].resize(parts[i].lines.size());
       const auto number = static_cast<std::size_t>(parts[i].number);
       if (by_part_number.size() <= number) by_part_number.resize(number + 1);
-      // If several parts have the same number, the first one is the one that runs, because stored files are
-      // parts, too.
+      // If several parts have the same number, only the first one runs, because stored files are also parts.
       if (by_part_number[number] == nullptr) by_part_number[number] = &counts[i];
     }
   }

@@ -21,8 +21,7 @@ namespace understudy::emulator::world {
 
 namespace {
 
-/// If several parts have the same number, the first one is the one that runs, because stored files are parts,
-/// too.
+/// If several parts have the same number, only the first one runs, because stored files are also parts.
 std::vector<ProgramPart> running_parts(const Device& device, const std::string& text) {
   std::vector<ProgramPart> parts;
   for (ProgramPart& part : device.model().language->parts(text, device.settings())) {

@@ -42,7 +42,7 @@ struct BinaryRow {
 /// Returns null if `sign` is not an operator of this level.
 const BinaryRow* find_binary(std::string_view sign, Level level);
 
-/// Thrown if two terms cannot be combined. The message gives the reason.
+/// Thrown if two terms cannot be combined. The message contains the reason.
 struct MisfitError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };

@@ -80,7 +80,7 @@ const LookedNames::List* LookedNames::find_list(std::uint64_t number) const {
 
 bool LookedNames::is_kept(std::uint64_t number) const { return find_list(number) != nullptr; }
 
-/// Makes room for a list with that many names.
+/// Frees space for a list with this number of names.
 void LookedNames::make_room(std::size_t names) {
   // Probes keep all names forever, so they are replaced from time to time.
   if (!probes_ || resolved_ + names > 4 * kMaxKept) {

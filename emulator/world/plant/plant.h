@@ -254,7 +254,7 @@ class alignas(64) PlantAxis {
     }
   };
 
-  /// Makes the next tick check everything.
+  /// Ensures that the next tick checks everything.
   void disturb() {
     quiet_from_ = 1;
     quiet_to_ = 0;

@@ -186,7 +186,7 @@ std::string exception_text(int exception) {
 }
 
 bool is_write(std::span<const std::uint8_t> frame) {
-  // These functions write coils or registers, mask a register, or read and write at once.
+  // These functions write coils or registers, mask a register, or read and write in one request.
   constexpr std::array<std::uint8_t, 6> kWrites{0x05, 0x06, 0x0F, 0x10, 0x16, 0x17};
   return frame.size() >= 2 && std::find(kWrites.begin(), kWrites.end(), frame[1]) != kWrites.end();
 }

@@ -22,7 +22,7 @@ bool is_write(std::span<const std::uint8_t> frame);
 
 /// Returns the numbers of the stations that a frame addresses now. The first one is the station whose number
 /// it contains, if any. Without power, or before it has started, that station receives nothing, but the frame
-/// is still meant for it.
+/// is still addressed to it.
 std::vector<std::size_t> addressed_by(const LineStations& stations, std::span<const std::uint8_t> request);
 
 /// Describes a host's frame. `to` is the device that it addresses, or null if there is none. A frame that

@@ -43,7 +43,7 @@ class TextLineProtocol final : public LineProtocol {
 
   bool carries_text() const override { return true; }
   bool may_change(const LineStations& /*stations*/, const pty::CapturedPacket& /*message*/) const override {
-    return true;  // only the device could tell
+    return true;  // only the device could determine this
   }
 
   std::unique_ptr<pty::CaptureFrames> packets(std::size_t line, pty::RtuFraming framing,

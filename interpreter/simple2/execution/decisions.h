@@ -18,7 +18,7 @@ enum class Decision : std::uint8_t {
   wait,       // ends at once, or waits
 };
 
-/// Determines the decision from the mnemonic, because the manual names instructions after what they do.
+/// Determines the decision from the mnemonic, because the manual names instructions after their function.
 constexpr Decision decision_of(std::string_view mnemonic) {
   if (mnemonic.starts_with("Wait_")) return Decision::wait;
   if (mnemonic.starts_with("Jump_") || mnemonic == "Loop") return Decision::jump;

@@ -12,7 +12,7 @@ namespace understudy::interpreter::simple2 {
 enum class Then : std::uint8_t {
   next_line,
   line_after_next,
-  flag,  // the line with flag DATA1, or line 0 if no line has it
+  flag,  // the line with flag DATA1, or line 0 if there is no such line
   same_line,
   end,
   end_for_nested_loop,
@@ -36,7 +36,7 @@ struct Step {
     const bool is_flag = line.data1 >= 1 && line.data1 <= kFlagCount;
     return !is_flag && dialect.undefined_flag == Dialect::UndefinedFlag::line_void;
   }
-  /// Returns the line that has the flag, or line 0 if none has it, as in the manual.
+  /// Returns the line that has the flag, or line 0 if there is no such line, as in the manual.
   int flag_line() const { return program.line_with_flag(line.data1).value_or(0); }
 };
 

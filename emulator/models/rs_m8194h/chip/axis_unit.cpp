@@ -17,7 +17,7 @@ namespace {
 using motion::Comparator;
 using motion::Counter;
 
-/// Makes a counter wrap in its ring again, after a count that was outside the ring has entered it.
+/// Lets a counter wrap in its ring again, after a count from outside the ring has entered the ring.
 void enter_ring(Counter& counter, const BasicSettings& settings, std::int64_t travel, std::int64_t came) {
   if (!settings.ring || counter.range == Counter::Range::ring) return;
   const std::int64_t count = counter.at(travel);

@@ -165,7 +165,7 @@ void PathStarts::draw(const HeldPath& path, bool joins) {
   if (joins && is_last && begins_to_slow_down) paths.together.run.set_open(false, now());
 }
 
-/// Starts what was drawn. Returns false if an axis prevents it from beginning.
+/// Starts the drawn path. Returns false if an axis prevents this.
 bool PathStarts::set_out(const HeldPath& path, const PathDrawing& drawing) {
   const PathRow& row = row_of_path(path.command.verb());
   const bool ends_here = !is_segment(path) || is_last_segment(path);

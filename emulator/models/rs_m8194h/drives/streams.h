@@ -82,7 +82,7 @@ class Streams final : public Part {
 
   /// Breaks off the stream that is running or slowing down, or that has starved.
   void break_off();
-  /// Breaks off the stream of a segment that must not begin. The segments after it do not begin, either.
+  /// Ends the stream of a segment that must not begin, so the following segments do not begin.
   void refuse(const HeldPath& path);
   /// Returns true if a segment belongs to the rest of a stream that was broken off.
   bool is_left_over(const HeldPath& segment);

@@ -44,7 +44,7 @@ Error replace_jog(ChainState& chain, int module, int direction, std::int32_t for
     forget_queue(chain, module);
   }
   order_jog(chain.motor(module), direction, force);
-  if (gives_up) serve(chain, chain.now + 1);  // starts commands that waited behind dropped ones
+  if (gives_up) serve(chain, chain.now + 1);  // starts commands that waited for dropped commands
   return Error::none;
 }
 

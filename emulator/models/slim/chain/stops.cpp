@@ -43,7 +43,7 @@ void release(ChainState& chain) {
   serve(chain, chain.now + 1);
 }
 
-/// Discards everything, or only what PZ holds.
+/// Discards everything, or only what PZ has paused.
 void give_up(ChainState& chain, bool in_scope_only) {
   const auto is_meant = [&](int module) { return !in_scope_only || chain.in_pause_scope(module); };
   for (int module = 0; module < kModules; ++module) {
@@ -54,7 +54,7 @@ void give_up(ChainState& chain, bool in_scope_only) {
   for (int module = 0; module < kModules; ++module) {
     if (is_meant(module)) forget_queue(chain, module);
   }
-  serve(chain, chain.now + 1);  // starts commands that were waiting behind a dropped one in other FIFOs
+  serve(chain, chain.now + 1);  // starts commands in other FIFOs that were waiting for a dropped command
 }
 
 /// Discards waiting commands, but not those in progress.

@@ -84,7 +84,7 @@ struct Module {
   bool jogs_or_pushes() const { return activity == Activity::jog || activity == Activity::thrust; }
   /// Returns true if the module is active, or a command is waiting for it.
   bool busy() const { return activity != Activity::idle || !fifo.empty() || holds_jog(); }
-  /// Returns the activity of the module, even if a pause holds it.
+  /// Returns the activity of the module, even if it is paused.
   Activity activity_or_held() const;
 
   // ---- With its axis

@@ -95,7 +95,7 @@ void after_move(const Motor& motor) {
   take_off(module, MarkEvent::stands);
   module.place_units = motor.coordinate();
   const motion::Cause cause = motor.axis.cause;
-  if (cause == motion::Cause::stopped) return;  // a pause holds the move, which will continue from here
+  if (cause == motion::Cause::stopped) return;  // the move is paused, and will continue from here
   if (cause != motion::Cause::arrived) {
     drop_head(module, Error::not_allowed);
   } else if (was_move) {

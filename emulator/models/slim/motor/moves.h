@@ -31,7 +31,7 @@ inline void after_motion(const Motor& motor, Tick begin_at) {
 void hold_motion(const Motor& motor);
 void resume_motion(const Motor& motor);
 
-/// Applies a changed speed to the running move or jog, unless a pause holds it. Returns false if the motor is
+/// Applies a changed speed to the running move or jog, unless it is paused. Returns false if the motor is
 /// stopping or at rest regardless of its speed.
 bool refresh_speed(const Motor& motor, bool is_held);
 

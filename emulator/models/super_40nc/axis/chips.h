@@ -74,7 +74,7 @@ class Chips : protected OnGround {
   /// Returns the speed in the chip's speed steps (D8x70).
   std::int32_t chip_speed(int axis_number) const;
 
-  // --- who holds an axis
+  // --- which motion controls an axis
   /// Looks up the table in ownership.h, with the selected options.
   Grant granted(Activity holder, Request request) const {
     note_request(holder, request);

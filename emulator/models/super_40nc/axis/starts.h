@@ -17,7 +17,7 @@ class Starts : protected Chips {
   Starts(const Chips& chips, AxisInputs& inputs, AxisParameters& parameters, ChipPins& pins)
       : Chips(chips), inputs_(inputs), parameters_(parameters), pins_(pins) {}
 
-  /// Returns what the axis's holder grants. A refusal is reported with the PLC's line.
+  /// Returns the grant of the axis's holder. A refusal is reported with the PLC's line.
   Grant ask(int axis_number, Request request);
   /// Reads the parameters that a motion needs when it starts.
   void prepare(int axis_number, bool homes = false);

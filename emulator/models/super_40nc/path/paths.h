@@ -31,7 +31,7 @@ class Paths : protected Chips {
   Paths(AxisParts& parts, PathState& state)
       : Chips(parts.chips), parts_(parts), state_(state), backlash_(parts.chips, state) {}
 
-  /// Returns what the axes of a path are granted together.
+  /// Returns the common grant of all axes of a path.
   Grant ask_for_path(const std::array<bool, kAxisCount>& takes);
   /// Returns true if the path has begun; otherwise, reports its error.
   bool begin_path(const PathPlan& plan);
