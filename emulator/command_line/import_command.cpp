@@ -142,8 +142,8 @@ int import_registers(ModelList models, const ImportArguments& arguments) {
   if (!text)
     throw FileError(arguments.list + ": registers: " + text.why + "; expected a list of registers (CSV)");
   std::optional<model_file::ThingList> thing;
-  if (model_file::is_thing(*text))
-    thing = model_file::read_thing(*text, arguments.list, require_thing_flags(arguments, reading));
+  if (const auto thing_text = model_file::text_of_thing(*text))
+    thing = model_file::read_thing(*thing_text, arguments.list, require_thing_flags(arguments, reading));
   const model_file::RegisterList read = thing ? thing->list : read_list(*text, arguments.list, reading);
   for (const FileError::Diagnostic& remark : read.remarks.all())
     std::fprintf(stderr, "%s\n", remark.text.c_str());

@@ -139,8 +139,12 @@ class CsvReader {
 }  // namespace
 
 std::vector<CsvRow> parse_csv(const std::string& text, const std::string& file) {
-  if (text.find('\n') != std::string::npos) return CsvReader(text, file).read();
-  // Some spreadsheet programs on the Mac end lines with only a carriage return.
+  // Some spreadsheets on a Mac end lines with carriage returns alone, and other programs may add a line feed.
+  const auto feeds = std::count(text.begin(), text.end(), '\n');
+  std::ptrdiff_t alone = 0;
+  for (std::size_t i = 0; i < text.size(); ++i)
+    alone += text[i] == '\r' && (i + 1 == text.size() || text[i + 1] != '\n') ? 1 : 0;
+  if (alone <= feeds) return CsvReader(text, file).read();
   std::string lines = text;
   std::ranges::replace(lines, '\r', '\n');
   return CsvReader(lines, file).read();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cstdint>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -10,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/text/one_line.h"
 #include "emulator/device/register_map/register_map.h"
 #include "emulator/device/register_map/row.h"
 #include "emulator/model_file/list_row.h"
@@ -59,6 +61,7 @@ bool writes_only(Access access) { return access == Access::write; }
 std::string type_text(const ListedRegister& listed) {
   if (listed.type == Type::bit) return "bit";
   const std::string width = std::to_string(width_of(listed.type));
+  if (listed.is_bcd) return "bcd" + width;
   return (listed.type == Type::f32 ? "f" : is_signed(listed.type) ? "s" : "u") + width;
 }
 
@@ -75,7 +78,8 @@ std::string difference(const DescribedTwice& both) {
   const ListedRegister& whole = both.whole;
   const ListedRegister& again = both.again;
   const auto both_have = [&](Column column) { return both.first_row.has(column) && both.row.has(column); };
-  if (whole.type != again.type) return other("type", type_text(whole), type_text(again));
+  if (whole.type != again.type || whole.is_bcd != again.is_bcd)
+    return other("type", type_text(whole), type_text(again));
   if (!(whole.order == again.order)) return "a different order of words or bytes";
   if (!whole.unit.empty() && !again.unit.empty() && whole.unit != again.unit)
     return other("unit", whole.unit, again.unit);
@@ -106,7 +110,114 @@ std::vector<BitName> joined_bits(const ListedRegister& whole, const ListedRegist
 
 Access joined_access(Access first, Access second) { return first == second ? first : Access::read_write; }
 
+/// Returns the access to a register of which hosts read some bits and write others.
+Access access_to_all(Access one, Access other) {
+  const bool is_read = one != Access::write || other != Access::write;
+  const bool is_written = one != Access::read || other != Access::read;
+  return is_read && is_written ? Access::read_write : is_read ? Access::read : Access::write;
+}
+
+/// Returns the value of some bits after power-up. Their own range cannot be kept.
+Value default_of_part(const ListRow& row, const ListedRegister& only, const BitName& part) {
+  const Value highest = (Value{1} << part.width) - 1;
+  if (only.factory < 0 || only.factory > highest) {
+    row.fail(Column::factory, quoted(std::to_string(only.factory)) + " does not fit into " +
+                                  std::to_string(part.width) + (part.width == 1 ? " bit" : " bits") +
+                                  "; expected 0 to " + std::to_string(highest));
+  }
+  if (only.ranged && (only.min > 0 || only.max < highest)) {
+    const Column column = row.has(Column::values)  ? Column::values
+                          : row.has(Column::range) ? Column::range
+                                                   : Column::max;
+    row.remark(
+        "range of bits", column,
+        "the range of " + quoted(part.name) + " is ignored, because only whole registers have a range");
+  }
+  return only.factory;
+}
+
+std::string access_text(Access access) {
+  return access == Access::read ? "R" : access == Access::write ? "W" : "R/W";
+}
+
+/// The access and the persistence belong to the whole register, so all its bits have them.
+void join_access(const DescribedTwice& both) {
+  ListedRegister& whole = both.whole;
+  const std::string name = "register " + std::to_string(whole.address) + " is ";
+  const Column column = both.row.has(Column::access) ? Column::access : Column::writable;
+  if (both.row.has(column)) {
+    const Access before = whole.access;
+    whole.access = access_to_all(before, both.again.access);
+    if (whole.access != before || whole.access != both.again.access) {
+      both.row.remark("access of bits", column,
+                      quoted(both.row.text(column)) + " differs from other rows of the register: " + name +
+                          access_text(whole.access) + " as a whole");
+    }
+  }
+  if (!both.row.has(Column::persistent) || both.again.persistent == whole.persistent) return;
+  whole.persistent = true;
+  both.row.remark("persistence of bits", Column::persistent,
+                  quoted(both.row.text(Column::persistent)) +
+                      " differs from other rows of the register: " + name + "persistent as a whole");
+}
+
+/// Returns the lowest bit of a part in a register with two words. The row names the word by its address.
+int bit_in_pair(const DescribedTwice& both, const BitName& part) {
+  constexpr int kWord = 16;
+  const ListedRegister& whole = both.whole;
+  const bool is_first = both.again.address == whole.address;
+  const bool low_is_first = whole.order.words == WordOrder::Words::low_first;
+  const int bit = part.bit + (is_first == low_is_first ? 0 : kWord);
+  if (whole.order.words == WordOrder::Words::as_the_model) {
+    both.row.remark("bits of pairs", Column::address,
+                    quoted(both.row.text(Column::address)) + " is bit " + std::to_string(bit) + " of " +
+                        quoted(whole.name) + ", because the high word comes first");
+  }
+  return bit;
+}
+
 }  // namespace
+
+ListedRegister register_of_part(const ListRow& row, const ListedRegister& only, const BitName& part) {
+  return {.table = only.table,
+          .address = only.address,
+          .name = "Register_" + std::to_string(only.address),
+          .access = only.access,
+          .persistent = only.persistent,
+          .factory = default_of_part(row, only, part) << part.bit,
+          .bits = {part},
+          .since = only.since};
+}
+
+void join_part(const DescribedTwice& both, BitName part, bool is_made_of_parts) {
+  ListedRegister& whole = both.whole;
+  const ListRow& row = both.row;
+  if (whole.type == Type::f32)
+    row.fail(Column::address, quoted(whole.name) + " is a real number; expected a register with bits");
+  const auto value = static_cast<std::uint32_t>(default_of_part(row, both.again, part));
+  if (is_32_bit(whole.type)) part.bit = bit_in_pair(both, part);
+  auto all = whole.bits;
+  all.push_back(part);
+  try {
+    require_apart(all);
+  } catch (const std::invalid_argument& error) {
+    row.fail(Column::address, error.what());
+  }
+  if (row.has(Column::factory)) {
+    const std::uint32_t mask = bits(part.bit, "", part.width).mask();
+    const auto before = static_cast<std::uint32_t>(whole.factory);
+    const std::uint32_t after = (before & ~mask) | value << part.bit;
+    if (!is_made_of_parts && both.first_row.has(Column::factory) && after != before) {
+      row.fail(Column::factory, quoted(row.text(Column::factory)) + " contradicts the default of " +
+                                    quoted(whole.name) + " in line " + std::to_string(both.first_row.line()) +
+                                    "; expected rows that agree");
+    }
+    whole.factory = value_of(after, whole.type);
+  }
+  whole.bits = std::move(all);
+  if (is_made_of_parts) whole.since = std::min(whole.since, both.again.since);
+  join_access(both);
+}
 
 bool are_bytes(const DescribedTwice& both) {
   const bool is_read_and_written = (reads_only(both.whole.access) && writes_only(both.again.access)) ||

@@ -21,7 +21,15 @@ struct DescribedTwice {
   }
 };
 
-/// Returns true if the rows are the high byte and the low byte of a register.
+/// Returns the register for the first row that describes some of its bits, with the row's own values.
+models::imported::ListedRegister register_of_part(const ListRow& row,
+                                                  const models::imported::ListedRegister& only,
+                                                  const models::imported::BitName& part);
+/// Adds to the register what a row says about some of its bits; `again` has that row's values. Throws
+/// FileError if it contradicts the register.
+void join_part(const DescribedTwice& both, models::imported::BitName part, bool is_made_of_parts);
+
+/// Returns true if the rows are the high and the low byte of a register.
 bool are_bytes(const DescribedTwice& both);
 /// Converts both rows to names of bits. Returns what prevents this, or an empty text.
 std::string join_bytes(const DescribedTwice& both);

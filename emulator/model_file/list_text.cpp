@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "base/files/file_error.h"
+#include "base/text/lines.h"
 #include "base/text/one_line.h"
 #include "base/text/utf8.h"
 #include "emulator/model_file/list_columns.h"
@@ -65,16 +66,45 @@ bool stand_alone(const std::string& bytes) {
 
 /// Returns the encoding of a text that is not UTF-8, or nothing if several encodings are possible.
 std::optional<std::string_view> guess(const std::string& bytes) {
-  const bool has_mark = bytes.starts_with("\xFF\xFE") || bytes.starts_with("\xFE\xFF");
-  if (has_mark) return "utf-16";
+  if (has_utf16_mark(bytes)) return "utf-16";
   if (stand_alone(bytes)) return "latin-1";
   return std::nullopt;
 }
 
+/// A file that is not a list, and its first bytes.
+struct OtherFile {
+  std::string_view begins;
+  std::string_view is;
+};
+constexpr std::array kOtherFiles{
+    OtherFile{"PK\x03\x04", "is a spreadsheet (.xlsx, .ods) or an archive"},
+    OtherFile{"\xD0\xCF\x11\xE0", "is a spreadsheet (.xls)"},
+    OtherFile{"%PDF", "is a PDF"},
+    OtherFile{"<", "is HTML or XML"},
+    OtherFile{"{", "is JSON, but no Thing with \"properties\""},
+};
+
+/// Returns what a file is that cannot be a list, or an empty text.
+std::string_view other_kind(std::string_view bytes) {
+  if (bytes.starts_with(kByteOrderMark)) bytes.remove_prefix(kByteOrderMark.size());
+  bytes.remove_prefix(std::min(bytes.find_first_not_of(" \t\r\n"), bytes.size()));
+  const auto* const found = std::find_if(kOtherFiles.begin(), kOtherFiles.end(),
+                                         [&](const OtherFile& one) { return bytes.starts_with(one.begins); });
+  return found == kOtherFiles.end() ? std::string_view() : found->is;
+}
+
 }  // namespace
+
+bool has_utf16_mark(std::string_view bytes) {
+  return bytes.starts_with("\xFF\xFE") || bytes.starts_with("\xFE\xFF");
+}
 
 std::string decode_list(const std::string& bytes, const std::string& encoding, const ListPlace& place,
                         Remarks& remarks) {
+  if (const std::string_view kind = other_kind(bytes); !kind.empty()) {
+    throw FileError({place.file, 1 + place.lines_before, 1},
+                    "registers: " + std::string(kind) + "; expected a list saved as CSV");
+  }
   std::string known = encoding;
   const auto wrong = first_not_utf8(bytes);
   const auto line =

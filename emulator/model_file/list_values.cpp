@@ -9,9 +9,6 @@
 #include <string>
 #include <string_view>
 #include <utility>
-#include <vector>
-
-#include "base/text/parse_integer.h"
 
 namespace understudy::emulator::model_file {
 
@@ -43,13 +40,13 @@ std::size_t length_of_decimal(std::string_view text) {
   return at;
 }
 
+}  // namespace
+
 std::int64_t power_of_ten(int exponent) {
   std::int64_t power = 1;
   for (; exponent > 0; --exponent) power *= 10;
   return power;
 }
-
-}  // namespace
 
 std::optional<Decimal> parse_decimal(std::string_view text, bool may_have_unit) {
   const std::size_t length = length_of_decimal(text);
@@ -74,6 +71,46 @@ bool has_decimals(std::string_view text) {
   return text.substr(0, length).find_first_of(".,") != std::string_view::npos;
 }
 
+bool may_have_thousands(std::string_view text) {
+  constexpr std::size_t kGroup = 3;
+  const std::string_view number = text.substr(0, length_of_decimal(text));
+  const std::size_t comma = number.find(',');
+  if (comma == std::string_view::npos || number.size() - comma - 1 != kGroup) return false;
+  const std::size_t first = number.find_first_of("0123456789");
+  return number[first] != '0' && comma - first <= kGroup;
+}
+
+std::string plain_cell(std::string_view text) {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 6> kSigns{
+      {{"\u00A0", " "}, {"\u202F", " "}, {"\u2009", " "}, {"\u3000", " "}, {"\u2212", "-"}, {"\u3001", ","}}};
+  constexpr std::array<std::string_view, 10> kNone{"-",   "--",   "---", "–",    "—",
+                                                   "n/a", "n.a.", "na",  "none", "/"};
+  std::string made;
+  while (!text.empty()) {
+    const auto* const sign = std::find_if(kSigns.begin(), kSigns.end(),
+                                          [&](const auto& entry) { return text.starts_with(entry.first); });
+    const auto byte = [&](std::size_t at) { return static_cast<unsigned char>(text[at]); };
+    if (sign != kSigns.end()) {
+      made += sign->second;
+      text.remove_prefix(sign->first.size());
+    } else if (text.size() >= 3 && byte(0) == 0xEF && (byte(1) == 0xBC || byte(1) == 0xBD)) {
+      // U+FF01 to U+FF5E are the full-width forms of 0x21 to 0x7E.
+      const int number = (byte(1) - 0xBC) * 0x40 + (byte(2) - 0x80);
+      const bool is_full_width = number >= 1 && number <= 0x5E;
+      made +=
+          is_full_width ? std::string(1, static_cast<char>(0x20 + number)) : std::string(text.substr(0, 3));
+      text.remove_prefix(3);
+    } else {
+      made += text.front();
+      text.remove_prefix(1);
+    }
+  }
+  const std::string_view word = bare(made);
+  std::string key(word);
+  for (char& c : key) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return std::find(kNone.begin(), kNone.end(), key) != kNone.end() ? "" : made;
+}
+
 std::optional<std::int64_t> counts_of(const Decimal& value, const Step& step) {
   // Computes (value - offset) / step with integers, in units of the last decimal place.
   const int places = std::max({value.places, step.offset.places, step.step.places});
@@ -96,6 +133,9 @@ std::optional<std::int64_t> counts_of(const Decimal& value, const Step& step) {
 std::optional<Step> step_of_unit(std::string_view unit) {
   const auto step = parse_decimal(unit, true);
   if (!step || step->digits <= 0) return std::nullopt;
+  const std::string_view after = bare(unit.substr(length_of_decimal(unit)));
+  const auto first = after.empty() ? 'a' : static_cast<unsigned char>(after.front());
+  if (first < 0x80 && std::isalpha(first) == 0 && first != '%') return std::nullopt;  // "4-20 mA", "1/min"
   return Step{.step = *step, .offset = {}, .text = std::string(unit)};
 }
 
@@ -122,38 +162,19 @@ std::optional<Step> step_of_scale(std::string_view scale) {
 }
 
 std::optional<std::pair<std::string, std::string>> ends_of(const std::string& range) {
-  constexpr std::array<std::string_view, 9> kBetween{"...", "..", " to ", "~", "～", "–", "—", "至", "-"};
+  constexpr std::array<std::string_view, 12> kBetween{"...", "..", "…", " to ", " bis ", "~",
+                                                      "～",  "÷",  "–", "—",    "至",    "-"};
+  std::string_view text = bare(range);
+  const bool has_brackets =
+      (text.starts_with('(') && text.ends_with(')')) || (text.starts_with('[') && text.ends_with(']'));
+  if (has_brackets) text = bare(text.substr(1, text.size() - 2));
   for (const std::string_view between : kBetween) {
-    const std::size_t at = range.find(between, 1);
-    if (range.empty() || at == std::string::npos) continue;
-    return std::pair(std::string(bare(std::string_view(range).substr(0, at))),
-                     std::string(bare(std::string_view(range).substr(at + between.size()))));
+    const std::size_t at = text.find(between, 1);
+    if (text.empty() || at == std::string_view::npos) continue;
+    return std::pair(std::string(bare(text.substr(0, at))),
+                     std::string(bare(text.substr(at + between.size()))));
   }
   return std::nullopt;
-}
-
-std::optional<std::vector<NamedValue>> parse_enumeration(std::string_view text) {
-  std::vector<NamedValue> all;
-  text = bare(text);
-  if (text.starts_with('{') && text.ends_with('}')) text = text.substr(1, text.size() - 2);
-  for (std::size_t begin = 0; begin < text.size();) {
-    const std::size_t end = std::min(text.find_first_of(",;|", begin), text.size());
-    const std::string_view part = bare(text.substr(begin, end - begin));
-    begin = end + 1;
-    if (part.empty()) continue;
-    const std::size_t sign = part.find_first_of(":=", 1);
-    if (sign == std::string_view::npos) return std::nullopt;
-    std::string_view key = bare(part.substr(0, sign));
-    const std::string_view name = bare(part.substr(sign + 1));
-    NamedValue made{.name = std::string(name)};
-    made.is_bit = key.starts_with('b') && key.size() > 1;
-    if (made.is_bit) key.remove_prefix(1);
-    const auto value = parse_integer(key);
-    if (!value || name.empty()) return std::nullopt;
-    made.value = *value;
-    all.push_back(std::move(made));
-  }
-  return all.empty() ? std::nullopt : std::optional(std::move(all));
 }
 
 std::optional<std::int64_t> as_bcd(std::int64_t number, int words) {

@@ -1,5 +1,4 @@
-// Parses numbers, ranges and enumerations in the notation of manuals. A number without decimals is a count;
-// with decimals, it is in the unit of its register.
+// Parses the numbers and ranges of a list as people print them, in counts or in the unit with decimals.
 #pragma once
 
 #include <cstdint>
@@ -20,6 +19,14 @@ struct Decimal {
 std::optional<Decimal> parse_decimal(std::string_view text, bool may_have_unit);
 /// Returns true if a text is a number with decimal places: "50.0".
 bool has_decimals(std::string_view text);
+/// Returns true for a number whose comma may separate thousands instead of decimals: "65,535".
+bool may_have_thousands(std::string_view text);
+
+/// Returns a cell of numbers with the signs of ASCII in place of full-width and typographic ones, and an
+/// empty text for a word that means none: "-", "n/a".
+std::string plain_cell(std::string_view text);
+
+std::int64_t power_of_ten(int exponent);
 
 /// The value of a count: counts * step + offset.
 struct Step {
@@ -34,19 +41,10 @@ std::optional<Step> step_of_unit(std::string_view unit);
 /// Returns the step of a scale: "0.1", "x0.1", "/10". An integer N above 1 means that N counts are one unit.
 std::optional<Step> step_of_scale(std::string_view scale);
 
-/// Returns the two ends of "0..3000", "-5 to 5" or "0-100", as they are written.
+/// Returns the two ends of "0..3000", "-5 to 5", "0-100" or "(0 ~ 100)", as they are written.
 std::optional<std::pair<std::string, std::string>> ends_of(const std::string& range);
 
-/// A value and its meaning: "0: off".
-struct NamedValue {
-  std::int64_t value = 0;
-  bool is_bit = false;  // "b0: off"
-  std::string name;
-};
-/// Returns nothing if the text is not an enumeration such as "0: off, 1: on".
-std::optional<std::vector<NamedValue>> parse_enumeration(std::string_view text);
-
-/// Returns the digits in binary-coded decimal, or nothing if they do not fit.
+/// Returns digits as binary-coded decimals, or nothing if they do not fit.
 std::optional<std::int64_t> as_bcd(std::int64_t number, int words);
 
 }  // namespace understudy::emulator::model_file

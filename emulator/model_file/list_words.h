@@ -96,5 +96,7 @@ bool is_reserved(std::string_view name);
 
 /// Returns a text in lower case.
 std::string lower(std::string_view text);
+/// Returns a word in lower case, without parts in parentheses, blanks and punctuation: "R/W" is "rw".
+std::string word_key(std::string_view text);
 
 }  // namespace understudy::emulator::model_file

@@ -1,10 +1,12 @@
 #include "emulator/model_file/register_list.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -18,10 +20,12 @@
 #include "emulator/device/register_map/register_map.h"
 #include "emulator/device/register_map/row.h"
 #include "emulator/model_file/csv.h"
+#include "emulator/model_file/joined_rows.h"
 #include "emulator/model_file/list_addresses.h"
 #include "emulator/model_file/list_columns.h"
 #include "emulator/model_file/list_reading.h"
 #include "emulator/model_file/list_row.h"
+#include "emulator/model_file/list_values.h"
 #include "emulator/model_file/list_words.h"
 #include "emulator/model_file/row_registers.h"
 #include "emulator/model_file/taken_places.h"
@@ -99,7 +103,8 @@ namespace {
 
 class ListReader {
  public:
-  ListReader(const std::vector<CsvRow>& rows, const ListPlace& place, const ListReading& reading,
+  /// Cells of the rows are changed.
+  ListReader(std::vector<CsvRow>& rows, const ListPlace& place, const ListReading& reading,
              world::Diagnostics& diagnostics, RegisterList& list)
       : rows_(rows), place_(place), reading_(reading), diagnostics_(diagnostics), list_(list) {}
 
@@ -110,7 +115,8 @@ class ListReader {
     for (std::size_t i = plan_.heading_row + 1; i < rows_.size(); ++i) {
       const bool is_empty = std::all_of(rows_[i].cells.begin(), rows_[i].cells.end(),
                                         [](const CsvCell& cell) { return cell.text.empty(); });
-      if (is_empty) continue;
+      if (is_empty || is_section(rows_[i])) continue;
+      make_plain(rows_[i]);
       cells_.push_back(&rows_[i]);
       read_rows_.emplace_back(rows_[i], context_);
     }
@@ -122,6 +128,55 @@ class ListReader {
   }
 
  private:
+  /// Removes typographic signs, and words for "none", from the cells that hold no names.
+  void make_plain(CsvRow& row) {
+    const ListRow as_printed(row, context_);
+    const bool is_text = as_printed.type() && as_printed.type()->kind == TypeMeaning::Kind::text;
+    for (std::size_t i = 0; i < std::min(row.cells.size(), plan_.columns.size()); ++i) {
+      std::string& text = row.cells[i].text;
+      switch (plan_.columns[i]) {
+        case Column::min:
+        case Column::max:
+        case Column::range:
+        case Column::values:
+        case Column::scale:
+        case Column::decimals:
+        case Column::offset:
+        case Column::words:
+        case Column::width: text = plain_cell(text); break;
+        case Column::factory:
+          if (!is_text) text = plain_cell(text);
+          break;
+        case Column::unit:
+        case Column::order:
+        case Column::persistent:
+        case Column::since:
+          if (plain_cell(text).empty()) text.clear();
+          break;
+        default: break;
+      }
+    }
+  }
+
+  /// Returns true for a title between rows, which is alone in its row.
+  bool is_section(const CsvRow& row) {
+    constexpr std::ptrdiff_t kLetters = 3;
+    const CsvCell* only = nullptr;
+    for (std::size_t i = 0; i < row.cells.size(); ++i) {
+      if (row.cells[i].text.empty()) continue;
+      if (only != nullptr || i >= plan_.columns.size()) return false;
+      if (plan_.columns[i] != Column::address && plan_.columns[i] != Column::left_out) return false;
+      only = &row.cells[i];
+    }
+    const std::string& text = only->text;
+    const auto letters = std::count_if(text.begin(), text.end(),
+                                       [](unsigned char c) { return std::isalpha(c) != 0 || c >= 0x80; });
+    if (letters < kLetters || parse_address(text, plan_.has_hexadecimal_addresses)) return false;
+    list_.remarks.add("section", {place_.file, row.line + place_.lines_before, only->column},
+                      "registers: " + quoted(text) + " is alone in its row; it is ignored as a title");
+    return true;
+  }
+
   void read_addresses() {
     const bool is_hexadecimal = plan_.has_hexadecimal_addresses ||
                                 std::any_of(read_rows_.begin(), read_rows_.end(), [](const ListRow& row) {
@@ -195,13 +250,13 @@ class ListReader {
     if (made.part) {
       const ListedRegister& only = made.registers.front();
       const std::size_t number = taken_.at(only.table, only.address);
-      if (number != 0) return add_part(row, list_.registers[number - 1], *made.part);
+      if (number != 0) {
+        return join_part({list_.registers[number - 1], taken_.row_at(only.table, only.address), row, only},
+                         *made.part, made_of_parts_.contains(number));
+      }
       if (printed->bit >= 0) {
-        made.registers.front() = {.table = only.table,
-                                  .address = only.address,
-                                  .name = "Register_" + std::to_string(only.address),
-                                  .access = only.access,
-                                  .bits = {*made.part}};
+        made.registers.front() = register_of_part(row, only, *made.part);
+        made_of_parts_.insert(list_.registers.size() + 1);
       }
     }
     if (taken_.join(row, made.registers, list_.registers)) return;
@@ -209,19 +264,6 @@ class ListReader {
     taken_.take(row, made.registers, list_.registers.size());
     list_.registers.insert(list_.registers.end(), std::make_move_iterator(made.registers.begin()),
                            std::make_move_iterator(made.registers.end()));
-  }
-
-  static void add_part(const ListRow& row, ListedRegister& whole, const BitName& part) {
-    if (whole.type == Type::f32)
-      row.fail(Column::address, quoted(whole.name) + " is a real number; expected a register with bits");
-    try {
-      auto all = whole.bits;
-      all.push_back(part);
-      require_apart(all);
-      whole.bits = std::move(all);
-    } catch (const std::invalid_argument& error) {
-      row.fail(Column::address, error.what());
-    }
   }
 
   void require_width(const CsvRow& cells) const {
@@ -236,7 +278,7 @@ class ListReader {
                         std::to_string(width) + ", and quotes around a cell with a separator in it");
   }
 
-  const std::vector<CsvRow>& rows_;
+  std::vector<CsvRow>& rows_;
   const ListPlace& place_;
   const ListReading& reading_;
   world::Diagnostics& diagnostics_;
@@ -250,6 +292,7 @@ class ListReader {
   AddressEvidence evidence_;
   const ListRow* not_modicon_ = nullptr;  // the first row whose address cannot be a Modicon number
   TakenPlaces taken_;
+  std::set<std::size_t> made_of_parts_;  // the registers that began with a row for some of their bits
 };
 
 }  // namespace
@@ -259,7 +302,7 @@ RegisterList read_register_list(const std::string& text, const ListPlace& place,
   RegisterList list;
   diagnostics.attempt([&] {
     require_text(text, place);
-    const std::vector<CsvRow> rows = parse_csv(text, place.file);
+    std::vector<CsvRow> rows = parse_csv(text, place.file);
     const auto fail = [&](const std::string& what) {
       throw FileError({place.file, 1 + place.lines_before, 1}, "registers: " + what);
     };

@@ -20,6 +20,7 @@
 #include "emulator/model_file/list_row.h"
 #include "emulator/model_file/list_words.h"
 #include "emulator/model_file/register_list.h"
+#include "emulator/model_file/row_numbers.h"
 #include "emulator/model_file/row_shape.h"
 #include "emulator/model_file/row_values.h"
 #include "emulator/models/imported/description.h"
@@ -73,7 +74,7 @@ void read_name(const ListRow& row, ListedRegister& listed) {
   if (name.empty()) row.fail(Column::name, "is missing; expected a name in every row");
   const auto first = static_cast<unsigned char>(name[0]);
   const bool begins_well = std::isalpha(first) != 0 || first == '_' || first >= 0x80;
-  const bool is_plain = name.find_first_of(".{}\"") == std::string::npos && one_line(name) == name;
+  const bool is_plain = name.find_first_of(".{}\"=") == std::string::npos && one_line(name) == name;
   listed.name = name;
   if (!begins_well || !is_plain || is_taken_word(name)) {
     listed.name = as_word(name);
@@ -156,7 +157,11 @@ class RowReader {
     const bool has_shape =
         has_table && attempt([&] { shape = shape_of(row_, listed.table, printed ? printed->words() : 1); });
     if (has_table) attempt([&] { listed.access = access_of(row_, listed.table); });
-    if (has_shape) read_values(shape, listed);
+    if (has_shape) {
+      read_values(shape, listed);
+    } else {
+      check_numbers(row_, diagnostics_);
+    }
     attempt([&] { listed.persistent = row_.yes_or_no(Column::persistent); });
     attempt([&] { listed.since = since_of(row_); });
     if (has_address && has_shape) {
@@ -188,6 +193,12 @@ class RowReader {
     listed.type = shape.type;
     if (shape.holds_only_words()) listed.type = Type::u16;
     if (!shape.holds_only_words()) listed.order = shape.order;
+    listed.is_bcd = shape.kind == TypeMeaning::Kind::decimal;
+    if (listed.is_bcd) {
+      row_.remark("bcd", Column::type,
+                  quoted(row_.text(Column::type)) +
+                      " is binary-coded: tools write and show its code, so 25 is 0x25, or 37");
+    }
     check_step(row_);
     listed.unit = unit_of(row_);
     attempt([&] {
@@ -198,8 +209,7 @@ class RowReader {
         row_.fail(Column::bits, error.what());
       }
     });
-    if (attempt([&] { read_range(row_, shape, listed); }))
-      attempt([&] { read_factory(row_, shape, listed); });
+    is_wrong_ |= !read_numbers(row_, shape, listed, diagnostics_);
   }
 
   /// Returns the bits of a row with an address such as 10.3, or with the type `4bit`.

@@ -8,6 +8,7 @@
 #include "base/text/parse_integer.h"
 #include "emulator/device/register_map/register_map.h"
 #include "emulator/device/register_map/row.h"
+#include "emulator/model_file/list_enumeration.h"
 #include "emulator/model_file/list_row.h"
 #include "emulator/model_file/list_values.h"
 #include "emulator/model_file/list_words.h"
@@ -33,7 +34,17 @@ void require_agreement(const ListRow& row, Type type) {
   require(Column::is_signed, type == Type::f32 || row.yes_or_no(Column::is_signed) == is_signed(type));
 }
 
-/// Returns the type that follows from the columns `width`, `signed` and `real`.
+/// Returns true if a row's range or enumeration has negative values.
+bool has_negative_value(const ListRow& row) {
+  if (row.has(Column::min)) return row.text(Column::min).starts_with('-');
+  if (row.text(Column::max).starts_with('-')) return true;
+  if (const auto all = parse_enumeration(row.text(Column::values)); all && !row.has(Column::range))
+    return std::any_of(all->begin(), all->end(), [](const NamedValue& one) { return one.value < 0; });
+  const auto ends = ends_of(row.text(row.has(Column::range) ? Column::range : Column::values));
+  return ends && ends->first.starts_with('-');
+}
+
+/// Returns the type that the columns `width`, `signed` and `real` give.
 Type plain_type(const ListRow& row, Table table) {
   const std::string& width = row.text(Column::width);
   if (is_table_of_bits(table)) {
@@ -48,8 +59,8 @@ Type plain_type(const ListRow& row, Table table) {
     if (!is_wide) row.fail(Column::real, "a real number has 32 bits; expected the width 32");
     return Type::f32;
   }
-  const std::string& min = row.has(Column::min) ? row.text(Column::min) : row.text(Column::range);
-  const bool has_sign = row.has(Column::is_signed) ? row.yes_or_no(Column::is_signed) : min.starts_with('-');
+  const bool has_sign =
+      row.has(Column::is_signed) ? row.yes_or_no(Column::is_signed) : has_negative_value(row);
   if (is_wide) return has_sign ? Type::s32 : Type::u32;
   return has_sign ? Type::s16 : Type::u16;
 }
@@ -132,7 +143,8 @@ RowShape shape_of(const ListRow& row, Table table, int printed_words) {
     shape.words = std::max(stated_words, 1);
     return shape;
   }
-  if (stated_words <= 1 || stated_words == shape.words) return shape;
+  if (stated_words == 0 || stated_words == shape.words) return shape;
+  if (stated_words == 1 && !row.has(Column::words)) return shape;
   if (may_be_wider(row, shape) && stated_words == 2) {
     shape.type = shape.type == Type::s16 ? Type::s32 : Type::u32;
     shape.words = 2;
@@ -146,9 +158,10 @@ RowShape shape_of(const ListRow& row, Table table, int printed_words) {
                                   " registers; expected " + std::to_string(shape.words) + " for the type " +
                                   quoted(row.text(Column::type)));
   } else {
+    const Column stated = row.has(Column::type) ? Column::type : Column::width;
     row.remark("length", Column::words,
-               quoted(row.text(Column::words)) + " does not match the type " +
-                   quoted(row.text(Column::type)) + "; the type is used");
+               quoted(row.text(Column::words)) + " does not match the " + std::string(name_of(stated)) + " " +
+                   quoted(row.text(stated)) + "; the " + std::string(name_of(stated)) + " is used");
   }
   return shape;
 }

@@ -26,6 +26,10 @@ std::size_t index_of(Table table) { return static_cast<std::size_t>(table); }
 
 }  // namespace
 
+bool TakenPlaces::is_said_to_be_short(const Place& place) {
+  return place.row->text(Column::words) == "1" && place.row->type() && place.row->type()->words == 2;
+}
+
 std::vector<std::string> TakenPlaces::names_of(const ListedRegister& listed) {
   if (!is_32_bit(listed.type)) return {listed.name};
   return {listed.name, listed.name + "_L", listed.name + "_H"};  // the halves also have names
@@ -43,6 +47,10 @@ int TakenPlaces::line_of_name(const ListedRegister& listed) const {
 std::size_t TakenPlaces::at(Table table, int address) const {
   const auto& words = words_[index_of(table)];
   return words.empty() ? 0 : words[static_cast<std::size_t>(address)].number;
+}
+
+const ListRow& TakenPlaces::row_at(Table table, int address) const {
+  return *words_[index_of(table)][static_cast<std::size_t>(address)].row;
 }
 
 std::string TakenPlaces::free_name(const ListedRegister& listed) const {
@@ -107,11 +115,15 @@ void TakenPlaces::place(const ListRow& row, std::vector<ListedRegister>& registe
     for (int word = 0; word < words_of(listed) && !words.empty(); ++word) {
       const Place& taken = words[static_cast<std::size_t>(listed.address + word)];
       if (taken.number == 0) continue;
-      row.fail(Column::address, quoted(row.text(Column::address)) + " is taken by " + taken.name +
-                                    " in line " + std::to_string(taken.row->line()) +
-                                    "; expected a free address in the table " +
-                                    std::string(to_string(listed.table)) +
-                                    (is_32_bit(listed.type) ? " (32 bits take two addresses)" : ""));
+      row.fail(
+          Column::address,
+          quoted(row.text(Column::address)) + " is taken by " + taken.name + " in line " +
+              std::to_string(taken.row->line()) + "; expected a free address in the table " +
+              std::string(to_string(listed.table)) +
+              (is_32_bit(listed.type)       ? " (32 bits take two addresses)"
+               : is_said_to_be_short(taken) ? " (" + taken.name + " has the words " +
+                                                  quoted(taken.row->text(Column::words)) + ", but 32 bits)"
+                                            : ""));
     }
     const int line = line_of_name(listed);
     if (line == 0) continue;

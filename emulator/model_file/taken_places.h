@@ -25,6 +25,8 @@ class TakenPlaces {
             std::size_t number);
   /// Returns the number of the register at an address, plus 1, or 0 if there is none.
   std::size_t at(Table table, int address) const;
+  /// Returns the row that took an address first.
+  const ListRow& row_at(Table table, int address) const;
 
  private:
   struct Place {
@@ -32,6 +34,8 @@ class TakenPlaces {
     const ListRow* row = nullptr;
     std::string name{};
   };
+  /// Returns true if the row of a place gives one word to a type that has two.
+  static bool is_said_to_be_short(const Place& place);
   static std::vector<std::string> names_of(const models::imported::ListedRegister& listed);
   int line_of_name(const models::imported::ListedRegister& listed) const;
   /// Returns the name. If it is in use, the address is appended.

@@ -18,6 +18,7 @@
 #include "emulator/device/register_map/row.h"
 #include "emulator/model_file/list_fields.h"
 #include "emulator/model_file/list_reading.h"
+#include "emulator/model_file/list_text.h"
 #include "emulator/model_file/list_words.h"
 #include "emulator/model_file/starter.h"
 #include "emulator/model_file/thing_form.h"
@@ -257,10 +258,41 @@ bool is_thing(std::string_view text) {
          text.find("\"properties\"") != std::string_view::npos;
 }
 
+std::optional<std::string> text_of_thing(const std::string& bytes) {
+  if (!has_utf16_mark(bytes)) return is_thing(bytes) ? std::optional(bytes) : std::nullopt;
+  try {
+    Remarks none;
+    std::string text = decode_list(bytes, "utf-16", {}, none);
+    return is_thing(text) ? std::optional(std::move(text)) : std::nullopt;
+  } catch (const FileError&) {
+    return std::nullopt;  // the reader of lists says what is wrong
+  }
+}
+
+namespace {
+
+/// Things are written in JSON, so a broken one is reported as such, although the reader knows YAML too.
+YamlFields parse_thing(const std::string& text, const std::string& path) {
+  try {
+    return YamlFields::parse(text, path, "Thing Model",
+                             "a Thing Model with properties that have Modbus forms");
+  } catch (const FileError& error) {
+    constexpr std::string_view kNotYaml = ": is not YAML: ";
+    const FileError::Diagnostic& first = error.diagnostics().front();
+    const std::size_t at = first.text.find(kNotYaml);
+    if (at == std::string::npos) throw;
+    std::string what = first.text;
+    what.replace(at, kNotYaml.size(), ": is not JSON: ");
+    const std::size_t begin = what.find("Thing Model: ");
+    throw FileError(first.place, what.substr(begin == std::string::npos ? 0 : begin));
+  }
+}
+
+}  // namespace
+
 ThingList read_thing(const std::string& text, const std::string& path,
                      std::optional<AddressReading> addresses) {
-  const YamlFields thing =
-      YamlFields::parse(text, path, "Thing Model", "a Thing Model with properties that have Modbus forms");
+  const YamlFields thing = parse_thing(text, path);
   ThingList made;
   world::Diagnostics diagnostics;
   ThingReader reader(thing, addresses, made);

@@ -15,6 +15,8 @@ namespace understudy::emulator::model_file {
 
 /// Returns true for a JSON object with the keys of a Thing.
 bool is_thing(std::string_view text);
+/// Returns the text of a Thing in UTF-8, or nothing for bytes that are something else.
+std::optional<std::string> text_of_thing(const std::string& bytes);
 
 struct ThingList {
   std::string csv{};          // a register list, with addresses as on the line

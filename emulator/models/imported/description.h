@@ -2,6 +2,7 @@
 // is data that owns its names. emulator/model_file/ reads it from files, and model.h creates a Model from it.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstddef>
@@ -41,6 +42,7 @@ struct ListedRegister {
   std::string printed{};  // the name in the manual, if it cannot be used as `name`
   std::string alias{};    // the name that another row of the list uses for it
   Type type = Type::u16;
+  bool is_bcd = false;  // each four bits are a decimal digit; all values here are in this code
   WordOrder order{};
   Access access = Access::read_write;
   bool ranged = false;
@@ -53,7 +55,25 @@ struct ListedRegister {
   Firmware since = 0;  // 0: in every firmware
 };
 
-/// Refers to a register, by its number in the list, or to some of its bits.
+/// Returns the number that binary-coded decimals stand for.
+constexpr Value decoded(Value code) {
+  Value number = 0;
+  for (int shift = 28; shift >= 0; shift -= 4) number = number * 10 + ((code >> shift) & 0xF);
+  return number;
+}
+/// Returns the nearest number that fits, as binary-coded decimals.
+constexpr Value coded(Value number, Type type) {
+  number = std::clamp<Value>(number, 0, is_32_bit(type) ? 99'999'999 : 9999);
+  Value made = 0;
+  for (int shift = 0; number > 0; number /= 10, shift += 4) made |= (number % 10) << shift;
+  return made;
+}
+/// Returns the number that a stored value of a register stands for.
+constexpr Value meaning_of(const ListedRegister& listed, Value stored) {
+  return listed.is_bcd ? decoded(stored) : stored;
+}
+
+/// Names a register, by its number in the list, or some of its bits.
 struct Spot {
   std::size_t number = 0;
   int bit = -1;  // the lowest bit; -1: the whole register

@@ -4,76 +4,14 @@
 
 #include <string>
 
-#include "emulator/device/register_map/register_map.h"
 #include "emulator/model_file/list_fields.h"
 #include "emulator/model_file/register_list.h"
 #include "emulator/model_file/starter.h"
 #include "tests/emulator/model_file/described.h"
+#include "tests/emulator/model_file/listed_lines.h"
 
 namespace understudy::emulator::model_file {
 namespace foreign_lists_test {
-
-using models::imported::ListedRegister;
-using models::imported::WordOrder;
-
-std::string type_text(const ListedRegister& listed) {
-  std::string text = is_signed(listed.type) && listed.type != Type::f32 ? "s" : "u";
-  if (listed.type == Type::f32) text = "f";
-  if (listed.type == Type::bit) text = "bit";
-  if (listed.type != Type::bit) text += std::to_string(width_of(listed.type));
-  if (listed.order.words == WordOrder::Words::high_first) text += "hi";
-  if (listed.order.words == WordOrder::Words::low_first) text += "lo";
-  if (listed.order.low_byte_first) text += "sb";
-  return text;
-}
-
-/// Returns the facts of a register in one line, without those that are usual: "40 SPEED u16 r 0..9 =1 rpm".
-std::string line_of(const ListedRegister& listed) {
-  std::string text;
-  if (listed.table != Table::holding) text += std::string(to_string(listed.table)) + " ";
-  text += std::to_string(listed.address) + " " + listed.name + " " + type_text(listed);
-  if (listed.access == Access::read) text += " r";
-  if (listed.access == Access::write) text += " w";
-  if (listed.ranged)
-    text += " " + value_text(listed.min, listed.type) + ".." + value_text(listed.max, listed.type);
-  if (listed.factory != 0) text += " =" + value_text(listed.factory, listed.type);
-  if (!listed.unit.empty()) text += " " + listed.unit;
-  if (listed.persistent) text += " kept";
-  for (const auto& bit : listed.bits)
-    text += " " + bit.name + ":" + std::to_string(bit.bit) +
-            (bit.width > 1 ? "+" + std::to_string(bit.width) : "");
-  if (!listed.printed.empty()) text += " (" + listed.printed + ")";
-  if (!listed.alias.empty()) text += " or " + listed.alias;
-  return text;
-}
-
-/// Reads a list as `import` does.
-RegisterList imported(const std::string& list, ListReading reading = {}) {
-  reading.guesses_addresses = true;
-  return read_list_file(list, "l.csv", reading);
-}
-
-std::string lines_in(const std::string& list, const ListReading& reading = {}) {
-  std::string text;
-  try {
-    for (const ListedRegister& listed : imported(list, reading).registers) text += line_of(listed) + "\n";
-  } catch (const FileError& error) {
-    text = error.what();
-  }
-  return text;
-}
-
-std::string remarks_on(const std::string& list, const ListReading& reading = {}) {
-  std::string text;
-  for (const FileError::Diagnostic& remark : imported(list, reading).remarks.all())
-    text += remark.text + "\n";
-  return text;
-}
-
-struct Foreign {
-  const char* list;
-  const char* registers;
-};
 
 TEST(ForeignList, MayHaveOtherColumns) {
   const Foreign kLists[] = {
@@ -136,7 +74,7 @@ TEST(ForeignList, HasTheTypesOfTheField) {
       {"STRING(5)", "0 X_1 u16\n1 X_2 u16\n2 X_3 u16\n"},
       {"char[4]", "0 X_1 u16\n1 X_2 u16\n"},
       {"rawhex", "0 X u16\n"},
-      {"BCD", "0 X u16\n"},
+      {"BCD", "0 X bcd16\n"},
   };
   for (const Foreign& one : kTypes)
     EXPECT_EQ(lines_in(std::string("address,name,type\n0,X,") + one.list + "\n"), one.registers) << one.list;
@@ -145,7 +83,7 @@ TEST(ForeignList, HasTheTypesOfTheField) {
   EXPECT_EQ(
       lines_in("address,name,type,default\n0,A,uint64,0x0001000200030004\n4,B,string4,OK!\n6,C,bcd,1234\n"),
       "0 A_1 u16 =1\n1 A_2 u16 =2\n2 A_3 u16 =3\n3 A_4 u16 =4\n4 B_1 u16 =20299\n5 B_2 u16 =8448\n"
-      "6 C u16 =4660\n");
+      "6 C bcd16 =4660\n");
   EXPECT_EQ(lines_in("address,name,type,len\n0,A,string,2\n2,B,string,4 bytes\n4,C,INT,2\n6,D,uint32,2\n"),
             "0 A_1 u16\n1 A_2 u16\n2 B_1 u16\n3 B_2 u16\n4 C s32\n6 D u32\n");
 }
@@ -166,11 +104,12 @@ TEST(ForeignList, HasNamesThatMeanSomethingElseHere) {
       "address,name\n0,and\n1,=cmd\n2,#x\n3,-speed\n4,on\n5,coil\n6,Input\n7,a=b\n8,速度\n9,_x\n12,%\n10,* "
       "top "
       "*\n11,_on\n";
-  EXPECT_EQ(lines_in(list),
-            "0 _and u16 (and)\n1 _cmd u16 (=cmd)\n2 _x u16 (#x)\n3 _speed u16 (-speed)\n4 _on u16 (on)\n"
-            "5 _coil u16 (coil)\n6 Input u16\n7 a=b u16\n8 速度 u16\n9 _x_9 u16\n12 Register_12 u16 (%)\n10 "
-            "_top u16 (* top *)\n"
-            "11 _on_11 u16\n");
+  EXPECT_EQ(
+      lines_in(list),
+      "0 _and u16 (and)\n1 _cmd u16 (=cmd)\n2 _x u16 (#x)\n3 _speed u16 (-speed)\n4 _on u16 (on)\n"
+      "5 _coil u16 (coil)\n6 Input u16\n7 a_b u16 (a=b)\n8 速度 u16\n9 _x_9 u16\n12 Register_12 u16 (%)\n10 "
+      "_top u16 (* top *)\n"
+      "11 _on_11 u16\n");
   EXPECT_EQ(remarks_on("address,name\n0,and\n1,=cmd\n"),
             "l.csv:2:3: name: 'and' is called '_and' here (and 1 more)\n");
 }

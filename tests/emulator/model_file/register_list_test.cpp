@@ -72,8 +72,6 @@ TEST(RegisterList, SaysWhatIsWrongAndWhere) {
        "l.csv:2:5: type: is not as wide as its table; expected bit in coil and discrete, and only there"},
       {"address,name,signed\n0,A,maybe\n",
        "l.csv:2:5: signed: 'maybe' is neither yes nor no; expected 1 or 0"},
-      {"address,name,min,max\n0,A,1,\n",
-       "l.csv:2:5: min: is given alone; expected both min and max, or neither"},
       {"address,name,min,max\n0,A,5,1\n",
        "l.csv:2:7: max: '1' is below 5; expected a maximum that is not below the minimum"},
       {"address,name,min,max\n0,A,0,65536\n",
@@ -104,6 +102,30 @@ TEST(RegisterList, SaysWhatIsWrongAndWhere) {
        "l.csv:2:9: signed: '1' contradicts the type 'u16'; expected columns that agree, or only one of them"},
       {"address,name,type,real\n0,A,u32,1\n",
        "l.csv:2:9: real: '1' contradicts the type 'u32'; expected columns that agree, or only one of them"},
+      {"PK\x03\x04 xl/worksheets",
+       "l.csv:1:1: registers: is a spreadsheet (.xlsx, .ods) or an archive; expected a list saved as CSV"},
+      {"\xD0\xCF\x11\xE0 Workbook",
+       "l.csv:1:1: registers: is a spreadsheet (.xls); expected a list saved as CSV"},
+      {"<html><table><tr><td>address</td></tr></table>",
+       "l.csv:1:1: registers: is HTML or XML; expected a list saved as CSV"},
+      {"%PDF-1.7", "l.csv:1:1: registers: is a PDF; expected a list saved as CSV"},
+      {" {bad",
+       "l.csv:1:1: registers: is JSON, but no Thing with \"properties\"; expected a list saved as CSV"},
+      {"address,name,type,words\n0,A,u32,1\n1,B,u16,1\n",
+       "l.csv:3:1: address: '1' is taken by A in line 2; expected a free one in the table holding (A has the "
+       "words '1', but 32 bits)"},
+      {"address,name,min,max,unit,default\n0,A,0,\"65,535\",V,0\n",
+       "l.csv:2:7: max: '65,535' is in the unit, but the row has no step; expected counts such as 65535, or "
+       "a "
+       "unit such as 0.01Hz"},
+      {"address,name,range,default\n0,A,0 - 3000,\"1,500\"\n",
+       "l.csv:2:14: default: '1,500' is in the unit, but the row has no step; expected counts such as 1500, "
+       "or "
+       "a unit such as 0.01Hz"},
+      {"address,name,default\n10.0,A,2\n",
+       "l.csv:2:8: default: '2' does not fit into 1 bit; expected 0 to 1"},
+      {"address,name,default\n10,A,2\n10.0,B,1\n",
+       "l.csv:3:8: default: '1' contradicts the default of 'A' in line 2; expected rows that agree"},
       {"address,name\n0,A\xC4\xE3\xBA\xC3\n",
        "l.csv:2:1: registers: the line is not UTF-8; expected --encoding big5, gbk, or another encoding"},
   };
@@ -116,6 +138,19 @@ TEST(RegisterList, ReportsAllErrorsAtOnce) {
             "l.csv:2:1: address: 'x' is not an address; expected 0 to 65535, or 0x0000 to 0xFFFF\n"
             "l.csv:3:5: access: 'Q' is unknown; expected R, W or R/W\n"
             "l.csv:3:7: default: 'y' is not valid; expected a whole number from 0 to 65535");
+  EXPECT_EQ(diagnostic_about_list("address,name,min,max,default\n0,a,x,y,z\n"),
+            "l.csv:2:5: min: 'x' is not valid; expected a whole number from 0 to 65535\n"
+            "l.csv:2:7: max: 'y' is not valid; expected a whole number from 0 to 65535\n"
+            "l.csv:2:9: default: 'z' is not valid; expected a whole number from 0 to 65535");
+  EXPECT_EQ(
+      diagnostic_about_list("address,name,type,min,max,default\n0,a,u12,x,9,z\n"),
+      "l.csv:2:5: type: 'u12' is not a type; expected u16, s16, u32, s32, f32 or bit, or another type in "
+      "docs/import.md\n"
+      "l.csv:2:9: min: 'x' is not a number; expected one\n"
+      "l.csv:2:13: default: 'z' is not a number; expected one");
+  EXPECT_EQ(diagnostic_about_list("address,name,range,default\n0,a,many,z\n"),
+            "l.csv:2:5: range: 'many' is not a range; expected 0..3000\n"
+            "l.csv:2:10: default: 'z' is not valid; expected a whole number from 0 to 65535");
 }
 
 TEST(RegisterList, MayBeWrittenInSeveralWays) {
@@ -124,6 +159,7 @@ TEST(RegisterList, MayBeWrittenInSeveralWays) {
       "\xEF\xBB\xBF"
       "Address;Name;Min;Max;Default\r\n16;A;-5;5;1\r\n",
       "address,name,min,max,default\r0x10,A,-5,5,1\r",
+      "address,name,min,max,default\r0x10,A,-5,5,1\n",
       "# a list\n\naddress\tname\trange\tdefault\n16\t A \t-5..5\t1\n",
       "address,name,range,default,comment\n16,\"A\",-5 to 5,1,\"what, ever\"",
       "name,type,address,min,max,default\nA,int16,16,-5,5,1\n",

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 
 #include "emulator/device/describe/describe.h"
@@ -227,6 +228,28 @@ TEST(Thing, IsToldFromAList) {
   EXPECT_TRUE(is_thing(" {\n\"properties\": {}}"));
   EXPECT_FALSE(is_thing("address,name\n0,A\n"));
   EXPECT_FALSE(is_thing("{\"a\": 1}"));
+}
+
+TEST(Thing, MayBeInUtf16) {
+  const std::string text = "{\"properties\": {}}";
+  std::string wide = "\xFF\xFE";
+  for (const char c : text) wide += std::string{c, '\0'};
+  EXPECT_EQ(text_of_thing(wide).value_or(""), text);
+  EXPECT_EQ(text_of_thing(text).value_or(""), text);
+  EXPECT_EQ(text_of_thing(wide.substr(0, 9)), std::nullopt);
+}
+
+TEST(Thing, IsSaidToBeNoJsonIfItIsCutOff) {
+  const std::string cut = "{\"properties\": {\"A\": {\"forms\": [";
+  try {
+    read_thing(cut, "t.json", {});
+    ADD_FAILURE() << cut;
+  } catch (const FileError& error) {
+    const std::string what = error.what();
+    EXPECT_NE(what.find(": Thing Model: is not JSON: "), std::string::npos) << what;
+    EXPECT_EQ(what.find("t.json:1:"), 0U) << what;
+    EXPECT_EQ(what.find("t.json", 1), std::string::npos) << what;
+  }
 }
 
 }  // namespace thing_test
