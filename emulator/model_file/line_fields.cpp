@@ -197,10 +197,14 @@ void read_policy(const YamlFields& fields, MapPolicy& policy, Diagnostics& diagn
   read("write_only", kZeroOrRefusedSchema, [&](std::size_t word) {
     policy.write_only = word == 0 ? MapPolicy::WriteOnly::reads_zero : MapPolicy::WriteOnly::refused;
   });
-  read("halves", kAloneOrWholeSchema, [&](std::size_t word) {
-    policy.halves = word == 0 ? MapPolicy::Halves::may_be_written_alone : MapPolicy::Halves::come_whole;
-    policy.read_halves =
-        word == 0 ? MapPolicy::ReadHalves::may_be_read_alone : MapPolicy::ReadHalves::come_whole;
+  read("halves", kHalvesSchema, [&](std::size_t word) {
+    constexpr std::array<MapPolicy::Halves, 3> kOrder{MapPolicy::Halves::may_be_written_alone,
+                                                      MapPolicy::Halves::judged_with_the_other,
+                                                      MapPolicy::Halves::come_whole};
+    policy.halves = kOrder.at(word);
+    policy.read_halves = policy.halves == MapPolicy::Halves::come_whole
+                             ? MapPolicy::ReadHalves::come_whole
+                             : MapPolicy::ReadHalves::may_be_read_alone;
   });
   read("first_word", kHighOrLowSchema, [&](std::size_t word) { policy.low_word_first = word == 1; });
 }
@@ -210,7 +214,7 @@ std::string read_station_register(const YamlFields& field, const Binder& binder,
   const models::imported::Spot spot = binder.spot(field);
   const auto& listed = description.registers[spot.number];
   const bool suits = spot.is_whole() && listed.access != Access::write && listed.table == Table::holding &&
-                     !is_32_bit(listed.type);
+                     !is_32_bit(listed.type) && !listed.is_bcd;
   if (!suits)
     field.fail(understudy::quoted(field.text()) +
                " cannot hold the station number; expected a 16-bit holding register");

@@ -69,13 +69,13 @@ inline constexpr std::array<std::string_view, 2> kRefusedOrZero{"refused", "zero
 inline constexpr std::array<std::string_view, 3> kOutOfRange{"refused", "clamped", "stored"};
 inline constexpr std::array<std::string_view, 2> kRefusedOrIgnored{"refused", "ignored"};
 inline constexpr std::array<std::string_view, 2> kZeroOrRefused{"zero", "refused"};
-inline constexpr std::array<std::string_view, 2> kAloneOrWhole{"alone", "whole"};
+inline constexpr std::array<std::string_view, 3> kHalves{"alone", "judged", "whole"};
 inline constexpr std::array<std::string_view, 2> kHighOrLow{"high", "low"};
 inline constexpr Schema kRefusedOrZeroSchema = world::words_schema(kRefusedOrZero);
 inline constexpr Schema kOutOfRangeSchema = world::words_schema(kOutOfRange);
 inline constexpr Schema kRefusedOrIgnoredSchema = world::words_schema(kRefusedOrIgnored);
 inline constexpr Schema kZeroOrRefusedSchema = world::words_schema(kZeroOrRefused);
-inline constexpr Schema kAloneOrWholeSchema = world::words_schema(kAloneOrWhole);
+inline constexpr Schema kHalvesSchema = world::words_schema(kHalves);
 inline constexpr Schema kHighOrLowSchema = world::words_schema(kHighOrLow);
 inline constexpr std::array kMapKeys{
     Key{"holes", "Addresses without a register: refused (default), or read as zero.", &kRefusedOrZeroSchema},
@@ -84,8 +84,10 @@ inline constexpr std::array kMapKeys{
     Key{"read_only", "A write to a read-only register: refused (default) or ignored.",
         &kRefusedOrIgnoredSchema},
     Key{"write_only", "A read of a write-only register: zero (default) or refused.", &kZeroOrRefusedSchema},
-    Key{"halves", "Half of a 32-bit value: read and written alone (default), or only as a whole.",
-        &kAloneOrWholeSchema},
+    Key{"halves",
+        "Half of a 32-bit value: read and written alone (default), judged with the other half, or only as a "
+        "whole.",
+        &kHalvesSchema},
     Key{"first_word", "The first word of a 32-bit value: high (default) or low.", &kHighOrLowSchema}};
 
 // --- the list --------------------------------------------------------------------------------------

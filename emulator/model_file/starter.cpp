@@ -131,7 +131,10 @@ std::string starter_model(const RegisterList& list, const ListReading& reading, 
       "map:\n"
       "  out_of_range: refused  # or clamped, stored\n"
       "  holes: refused         # or zero\n";
-  if (has_pairs) text += "  first_word: high       # of 32-bit values; or low\n";
+  if (has_pairs)
+    text +=
+        "  first_word: high       # of 32-bit values; or low\n"
+        "  halves: alone          # without regard to the range; or judged, whole\n";
   text +=
       "\n"
       "# An axis that moves: remove the # signs, and fill in your registers.\n"

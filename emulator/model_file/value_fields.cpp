@@ -86,8 +86,9 @@ void read_followings(const YamlFields& fields, Description& made, Binder& binder
       };
       following.of = not_itself(keys.at("of"), binder.quantity(keys.at("of")));
       const ListedRegister& listed = made.registers[following.spot.number];
-      following.rest.number =
-          listed.type == Type::f32 ? double{real_of(listed.factory)} : static_cast<double>(listed.factory);
+      following.rest.number = listed.type == Type::f32
+                                  ? double{real_of(listed.factory)}
+                                  : static_cast<double>(meaning_of(listed, listed.factory));
       if (const auto field = keys.find("rest")) following.rest = not_itself(*field, binder.quantity(*field));
       if (const auto field = keys.find("while")) following.as_long_as = binder.condition(*field);
       if (!keys.has("while") && keys.has("rest"))

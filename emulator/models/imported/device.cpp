@@ -74,9 +74,10 @@ const Description& ImportedDevice::description() const { return model_.descripti
 /// A spot that shows an input initially contains the register's default, so the input has the same initial
 /// level.
 std::int32_t ImportedDevice::level_at_rest(const Spot& spot) const {
-  const Value whole = description().registers[spot.number].factory;
-  if (!spot.is_whole()) return static_cast<std::int32_t>((whole >> spot.bit) & 1);
-  return static_cast<std::int32_t>(std::clamp<Value>(whole, INT32_MIN, INT32_MAX));
+  const ListedRegister& listed = description().registers[spot.number];
+  if (!spot.is_whole()) return static_cast<std::int32_t>((listed.factory >> spot.bit) & 1);
+  return static_cast<std::int32_t>(
+      std::clamp<Value>(meaning_of(listed, listed.factory), INT32_MIN, INT32_MAX));
 }
 
 // --- what registers show ------------------------------------------------------------
@@ -136,10 +137,12 @@ std::optional<bool> ImportedDevice::servo_on(int axis) const {
 }
 
 Value ImportedDevice::value_of_part(const ShownPart& part, Type type) const {
+  const bool is_bcd = part.spot.is_whole() && description().registers[part.spot.number].is_bcd;
+  const auto shown = [&](Value value) { return is_bcd ? coded(value, type) : value; };
   switch (part.what) {
-    case ShownPart::What::axis: return value_of_view(part.number, part.view, type);
-    case ShownPart::What::input: return value_for(input(static_cast<int>(part.number)), type);
-    case ShownPart::What::following: return value_for(state_.followed[part.number], type);
+    case ShownPart::What::axis: return shown(value_of_view(part.number, part.view, type));
+    case ShownPart::What::input: return shown(value_for(input(static_cast<int>(part.number)), type));
+    case ShownPart::What::following: return shown(value_for(state_.followed[part.number], type));
     case ShownPart::What::comparison: return holds(description().comparisons[part.number]) ? 1 : 0;
   }
   return 0;
@@ -160,7 +163,7 @@ Value ImportedDevice::value_of_register(std::size_t number) const {
 
 Value ImportedDevice::value_at(const Spot& spot) const {
   const Value whole = value_of_register(spot.number);
-  if (spot.is_whole()) return whole;
+  if (spot.is_whole()) return meaning_of(description().registers[spot.number], whole);
   return (static_cast<std::uint32_t>(whole) & mask_of(spot)) >> spot.bit;
 }
 
@@ -198,8 +201,9 @@ void write_shown(ImportedDevice& device, Cell cell, Value value) {
 void ImportedDevice::write_view(std::size_t number, Value value) {
   const ShownPart& part = model_.shown(number).front();
   if (part.what != ShownPart::What::axis || part.view != View::position) return;
-  const double counts =
-      model_.type_of(number) == Type::f32 ? double{real_of(value)} : static_cast<double>(value);
+  const double counts = model_.type_of(number) == Type::f32
+                            ? double{real_of(value)}
+                            : static_cast<double>(meaning_of(description().registers[number], value));
   if (!std::isfinite(counts)) return;
   set_position(state_.axes[part.number], description().axes[part.number],
                static_cast<Value>(std::round(std::clamp(counts, -4e18, 4e18))));
@@ -291,10 +295,34 @@ std::optional<std::uint16_t> written_word(const RegisterRequest& request, const 
   return listed.order.low_byte_first ? static_cast<std::uint16_t>(word >> 8 | word << 8) : word;
 }
 
+bool has_digits_only(std::uint16_t word) {
+  constexpr std::uint16_t kHighest = 9;
+  for (; word != 0; word = static_cast<std::uint16_t>(word >> 4)) {
+    if ((word & 0xF) > kHighest) return false;
+  }
+  return true;
+}
+
+/// Returns true if a request writes something else than decimal digits to a word of the register.
+bool writes_no_digits(const RegisterRequest& request, const ListedRegister& listed) {
+  if (!listed.is_bcd || listed.access == Access::read || request.table != listed.table) return false;
+  for (int word = 0; word < (is_32_bit(listed.type) ? 2 : 1); ++word) {
+    const int index = listed.address + word - request.first;
+    const bool is_written = index >= 0 && static_cast<std::size_t>(index) < request.words.size();
+    if (is_written && !has_digits_only(request.words[static_cast<std::size_t>(index)])) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 DeviceAnswer ImportedDevice::admits(const RegisterRequest& request, Checked checked) const {
   if (!request.is_write() || checked != Checked::everything) return Refusal::none;
+  if (description().policy.out_of_range != MapPolicy::OutOfRange::stored) {
+    for (const std::size_t number : model_.bcd_registers()) {
+      if (writes_no_digits(request, description().registers[number])) return Refusal::bad_value;
+    }
+  }
   for (std::size_t i = 0; i < state_.axes.size(); ++i) {
     const AxisBinding& binding = description().axes[i];
     const auto held_after = [&](const Condition& condition) {
@@ -302,7 +330,7 @@ DeviceAnswer ImportedDevice::admits(const RegisterRequest& request, Checked chec
       const auto word = written_word(request, listed);
       if (!word) return holds_now(condition);
       const Value whole = value_of(*word, listed.type);
-      if (condition.spot.is_whole()) return condition.matches(whole);
+      if (condition.spot.is_whole()) return condition.matches(meaning_of(listed, whole));
       return condition.matches((static_cast<std::uint32_t>(whole) & mask_of(condition.spot)) >>
                                condition.spot.bit);
     };

@@ -69,8 +69,9 @@ State ImportedDevice::state_at_power_up() const {
   }
   for (const Following& following : description().followings) {
     const ListedRegister& listed = description().registers[following.spot.number];
-    made.followed.push_back(listed.type == Type::f32 ? double{real_of(listed.factory)}
-                                                     : static_cast<double>(listed.factory));
+    made.followed.push_back(listed.type == Type::f32
+                                ? double{real_of(listed.factory)}
+                                : static_cast<double>(meaning_of(listed, listed.factory)));
   }
   return made;
 }

@@ -83,6 +83,8 @@ ImportedModel::ImportedModel(Description description)
         map_.at(row.table, row.address, description_.firmwares.back(), description_.policy.low_word_first)
             .slot);
   }
+  for (std::size_t i = 0; i < description_.registers.size(); ++i)
+    if (description_.registers[i].is_bcd) bcd_registers_.push_back(i);
   find_what_moves();
 }
 
@@ -115,6 +117,8 @@ void ImportedModel::find_stops() {
   std::vector<std::pair<std::string, Value>> found;
   const auto add = [&](const Spot& spot, Value value) {
     const auto name = name_of(spot);
+    const ListedRegister& listed = description_.registers[spot.number];
+    if (spot.is_whole() && listed.is_bcd) value = coded(value, listed.type);
     if (name && std::ranges::find(found, std::pair(*name, value)) == found.end())
       found.emplace_back(*name, value);
   };

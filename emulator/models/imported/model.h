@@ -31,6 +31,7 @@ class ImportedModel {
   /// its type, and the state that it shows.
   int slot_of(std::size_t number) const { return slots_[number]; }
   Type type_of(std::size_t number) const { return description_.registers[number].type; }
+  const std::vector<std::size_t>& bcd_registers() const { return bcd_registers_; }
   std::span<const ShownPart> shown(std::size_t number) const { return shown_[number]; }
   /// Returns true if an output may change with each pulse of an axis, because of the state that it shows.
   bool output_moves(std::size_t terminal) const { return moving_outputs_[terminal]; }
@@ -49,6 +50,7 @@ class ImportedModel {
   std::vector<std::vector<BitField>> fields_;
   const RegisterMap map_;
   std::vector<int> slots_;
+  std::vector<std::size_t> bcd_registers_;
   std::vector<bool> moving_outputs_;  // true for outputs that may change with each pulse, by terminal
   bool numbers_move_ = false;
   std::vector<IdentityObject> identity_;
