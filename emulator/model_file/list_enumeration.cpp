@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/text/parse_integer.h"
+#include "emulator/model_file/list_values.h"
 
 namespace understudy::emulator::model_file {
 
@@ -19,17 +20,9 @@ namespace {
 
 constexpr std::string_view kSeparators = ",;|";
 
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\n'; }
 bool is_letter(char c) {
   return static_cast<unsigned char>(c) >= 0x80 || std::isalpha(static_cast<unsigned char>(c)) != 0;
-}
-
-std::string_view bare(std::string_view text) {
-  constexpr std::string_view kAround = " \t\n\"'";
-  const std::size_t begin = text.find_first_not_of(kAround);
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(kAround) + 1 - begin);
 }
 
 /// Reads a text from left to right.
@@ -89,7 +82,7 @@ class Cursor {
 };
 
 /// A value in front of its meaning, which begins at `end`.
-struct Key {
+struct ValueKey {
   std::size_t begin = 0;
   std::size_t end = 0;
   NamedValue value{};
@@ -98,7 +91,7 @@ struct Key {
   bool may_be_a_word = false;   // "2-wire"
 };
 
-bool take_sign(Cursor& cursor, Key& key) {
+bool take_sign(Cursor& cursor, ValueKey& key) {
   const std::size_t before = cursor.at();
   cursor.skip_blanks();
   if (cursor.take("=>") || cursor.take("->") || cursor.take("=")) return true;
@@ -116,9 +109,9 @@ bool take_sign(Cursor& cursor, Key& key) {
 }
 
 /// Returns the key that begins at a place of the text, or nothing.
-std::optional<Key> key_at(std::string_view text, std::size_t begin) {
+std::optional<ValueKey> key_at(std::string_view text, std::size_t begin) {
   Cursor cursor(text, begin);
-  Key key{.begin = begin};
+  ValueKey key{.begin = begin};
   cursor.take("\"");
   key.value.is_bit = cursor.take_in_any_case("bit") || cursor.take_in_any_case("b");
   if (key.value.is_bit) cursor.skip_blanks();
@@ -150,9 +143,9 @@ bool ends_a_meaning(char c) {
   return is_blank(c) || c == '/' || c == '(' || c == '[' || kSeparators.find(c) != std::string_view::npos;
 }
 
-std::vector<Key> keys_of(std::string_view text) {
+std::vector<ValueKey> keys_of(std::string_view text) {
   const bool has_separators = text.find_first_of(kSeparators) != std::string_view::npos;
-  std::vector<Key> keys;
+  std::vector<ValueKey> keys;
   for (std::size_t at = 0; at < text.size(); ++at) {
     if (at > 0 && !ends_a_meaning(text[at - 1])) continue;
     const auto key = key_at(text, at);
@@ -197,7 +190,7 @@ std::optional<std::vector<NamedValue>> parse_enumeration(std::string_view text) 
     if (is_around) text = bare(text.substr(1, text.size() - 2));
   }
   // The quotes around the first key have gone with the blanks.
-  const std::vector<Key> keys = keys_of(text);
+  const std::vector<ValueKey> keys = keys_of(text);
   if (keys.empty() || keys.front().begin != 0) return std::nullopt;
   std::vector<NamedValue> all;
   for (std::size_t i = 0; i < keys.size(); ++i) {

@@ -17,15 +17,6 @@ namespace {
 constexpr int kMaxDigits = 12;
 constexpr int kMaxPlaces = 9;
 
-std::string_view bare(std::string_view text) {
-  constexpr std::string_view kBlanks = " \t\"'";
-  const std::size_t begin = text.find_first_not_of(kBlanks);
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(kBlanks) + 1 - begin);
-}
-
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
-
 /// Returns the length of the decimal number at the beginning of the text, or 0.
 std::size_t length_of_decimal(std::string_view text) {
   std::size_t at = text.starts_with('-') || text.starts_with('+') ? 1 : 0;
@@ -41,6 +32,13 @@ std::size_t length_of_decimal(std::string_view text) {
 }
 
 }  // namespace
+
+std::string_view bare(std::string_view text) {
+  constexpr std::string_view kBlanks = " \t\n\"'";
+  const std::size_t begin = text.find_first_not_of(kBlanks);
+  if (begin == std::string_view::npos) return {};
+  return text.substr(begin, text.find_last_not_of(kBlanks) + 1 - begin);
+}
 
 std::int64_t power_of_ten(int exponent) {
   std::int64_t power = 1;

@@ -10,6 +10,10 @@
 
 namespace understudy::emulator::model_file {
 
+constexpr bool is_digit(char c) { return c >= '0' && c <= '9'; }
+/// Returns the text without the blanks and quotes around it.
+std::string_view bare(std::string_view text);
+
 /// An exact decimal number: digits * 10^-places.
 struct Decimal {
   std::int64_t digits = 0;
