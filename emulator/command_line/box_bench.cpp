@@ -122,6 +122,7 @@ BoxBench read_box_bench(ModelList models, const std::string& command, const Comp
     if (!text)
       throw FileError(arguments.inputs + ": inputs: " + text.why + "; expected a file of input changes");
     box.settings.inputs = box::parse_input_log(box.bench, *text, arguments.inputs);
+    box.settings.knows_inputs = true;
   }
   box.reading = capture_settings(box, arguments);
   return box;

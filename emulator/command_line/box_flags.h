@@ -107,8 +107,9 @@ inline void add_compare_flags(CLI::App& command, CompareArguments& compare) {
   command.add_flag("--power-up", compare.power_up,
                    "Time 0 of the captures is the controller's power-up, so its whole state is known");
   command
-      .add_option("--inputs", compare.inputs,
-                  "File with input changes, in lines such as '0.250 feeder.DIN_2 on'")
+      .add_option(
+          "--inputs", compare.inputs,
+          "What the inputs did: a file with lines such as '0.250 feeder.DIN_2 on' [what replies show]")
       ->check(kNotEmpty);
   add_capture_flags(command, compare);
 }

@@ -2,6 +2,7 @@
 #include <cstddef>
 #include <cstdio>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -58,6 +59,9 @@ class StreamedComparison {
     times_.finish();
   }
   SimTime usual_delay() const { return times_.usual_delay(); }
+  std::set<std::string> taken_inputs() const {
+    return comparer_ ? comparer_->taken_inputs() : std::set<std::string>();
+  }
 
  private:
   void judge(std::optional<SimTime> next, bool is_last) {
@@ -117,6 +121,7 @@ CaptureComparison compare_one(ModelList models, const BoxBench& box, const std::
                                     });
     streamed.finish();
     compared.usual_delay = streamed.usual_delay();
+    compared.taken_inputs = streamed.taken_inputs();
     compared.drift_ppm = settings.drift_ppm;
     return compared;
   };
@@ -160,6 +165,7 @@ int follow_capture(const BoxBench& box, const CompareArguments& arguments) {
           const std::vector<box::InputChange>& inputs) { streamed.add(std::move(exchange), notes, inputs); });
   streamed.finish();
   compared.usual_delay = streamed.usual_delay();
+  compared.taken_inputs = streamed.taken_inputs();
   compared.has_searched = false;
   std::fputs(compared.text().c_str(), stdout);
   return compared.is_different() ? kExitFailed : kExitWell;

@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <map>
 #include <numeric>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -108,6 +109,12 @@ Json asked_json(const std::vector<box::AskedChoice>& asked) {
   return rows;
 }
 
+std::string inputs_text(const std::set<std::string>& taken) {
+  std::string text;
+  for (const std::string& name : taken) text += (text.empty() ? "" : ", ") + name;
+  return "the levels of inputs were taken from replies: " + text;
+}
+
 std::string clock_text(double drift_ppm) {
   char text[80];
   std::snprintf(text, sizeof text, "the controller's clock is %.0f ppm %s than the capture's",
@@ -149,6 +156,7 @@ std::string CaptureComparison::text() const {
   std::string text =
       path_ + ": " + std::to_string(exchanges_) + " exchanges: " + verdicts_text(counts_) + "\n";
   for (const std::string& note : notes_text(notes)) text += "  " + note + "\n";
+  if (!taken_inputs.empty()) text += "  " + inputs_text(taken_inputs) + "\n";
   if (drift_ppm != 0) text += "  " + clock_text(drift_ppm) + "\n";
   if (usual_delay.count() != 0)
     text += "  replies usually come " + delay_text(usual_delay) + " after the bench's\n";
@@ -192,6 +200,7 @@ Json CaptureComparison::json() const {
     report[std::string(name)] = counts_[index_of(verdict)];
   report["format"] = notes.format;
   report["notes"] = notes_text(notes);
+  report["inputs_from_replies"] = taken_inputs;
   report["drift_ppm"] = drift_ppm;
   report["usual_delay_ns"] = usual_delay.count();
   report["first_difference"] = nullptr;
@@ -247,6 +256,7 @@ std::string CaptureComparison::page_sections() const {
   using Rows = std::vector<std::vector<std::string>>;
   Rows summary{{"exchanges", std::to_string(exchanges_)}, {"verdicts", verdicts_text(counts_)}};
   for (const std::string& note : notes_text(notes)) summary.push_back({"note", note});
+  if (!taken_inputs.empty()) summary.push_back({"inputs", inputs_text(taken_inputs)});
   if (drift_ppm != 0) summary.push_back({"clock", clock_text(drift_ppm)});
   if (usual_delay.count() != 0)
     summary.push_back({"replies", "usually come " + delay_text(usual_delay) + " after the bench's"});

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -60,6 +61,7 @@ class CaptureComparison {
   bool has_searched = true;  // the program has searched for remedies
   double drift_ppm = 0;
   SimTime usual_delay{0};
+  std::set<std::string> taken_inputs{};  // whose levels were taken from replies
 
  private:
   std::string path_;

@@ -290,7 +290,14 @@ TEST_F(Compare, MovesInputsAsAFileSays) {
   ASSERT_EQ(run.exit_code, 0) << run.output << run.errors;
   const std::string capture = folder_ / "captures/talk.pcapng";
   const std::string inputs = folder_.write("inputs.txt", "# an input\n0.100 box.DIN_10 on\n");
-  EXPECT_EQ(understudy({"compare", capture, "--bench", plain_, "--power-up"}).exit_code, 1);
+  const std::string no_inputs = folder_.write("none.txt", "# none moves\n");
+  EXPECT_EQ(
+      understudy({"compare", capture, "--bench", plain_, "--power-up", "--inputs", no_inputs}).exit_code, 1);
+  const Finished taken = understudy({"compare", capture, "--bench", plain_, "--power-up"});
+  EXPECT_EQ(taken.exit_code, 0) << taken.output << taken.errors;
+  EXPECT_EQ(taken.output, capture +
+                              ": 1 exchanges: 1 undecidable\n"
+                              "  the levels of inputs were taken from replies: box.DIN_10\n");
   const Finished same = understudy({"compare", capture, "--bench", plain_, "--power-up", "--inputs", inputs});
   EXPECT_EQ(same.exit_code, 0) << same.output << same.errors;
   for (const auto& [text, what] :

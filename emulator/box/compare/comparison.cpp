@@ -43,6 +43,7 @@ Comparer::Comparer(const world::Bench& bench, const CompareSettings& settings, c
     : settings_(settings),
       extent_(extent),
       knows_beginning_(settings.from_power_up || notes.knows_beginning),
+      takes_inputs_(!settings.knows_inputs && !notes.knows_beginning),
       shift_(knows_beginning_ && notes.begins_at_power_up ? SimTime{0}
                                                           : kStarted - std::min(kStarted, first_at)),
       replay_(bench, settings.line),
@@ -63,7 +64,10 @@ SimTime Comparer::on_bench(SimTime time) const {
 Judgement Comparer::judge(const Exchange& exchange, std::optional<SimTime> next, bool is_last) {
   const SimTime at = on_bench(exchange.at);
   const SimTime end = next ? std::min(on_bench(*next), at + kLongestWait) : at + kLongestWait;
-  const BenchReply reply = replay_.ask(exchange.request, at, end, settings_.tolerance);
+  std::vector<std::uint16_t> shown;
+  const auto asked = takes_inputs_ ? addressed_by(exchange.request) : std::nullopt;
+  if (asked && !asked->is_write) shown = words_in(*asked, exchange.request, exchange.reply);
+  const BenchReply reply = replay_.ask(exchange.request, at, end, settings_.tolerance, shown);
   Judgement judgement{.verdict = judge_.judge(exchange, reply, replay_.bank_of(exchange.request), is_last),
                       .has_times = exchange.replied_at.has_value() && reply.at.has_value()};
   fingerprint_ = mixed(fingerprint_, reply.bytes);

@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -26,6 +27,7 @@ struct CompareSettings {
   bool from_power_up = false;         // the capture's time 0 is the controller's power-up
   double drift_ppm = 0;               // by which the controller's clock runs faster than the capture's
   std::vector<InputChange> inputs{};  // by the capture's clock
+  bool knows_inputs = false;          // all of them; otherwise they follow what replies show
 };
 
 /// What may explain the first difference.
@@ -73,6 +75,7 @@ class Comparer {
   Judgement judge(const Exchange& exchange, std::optional<SimTime> next, bool is_last);
 
   std::uint64_t fingerprint() const { return fingerprint_; }
+  const std::set<std::string>& taken_inputs() const { return replay_.taken_inputs(); }
   /// Describes the exchange that was judged last.
   std::size_t agreeing_bytes() const { return agreeing_bytes_; }
 
@@ -83,6 +86,7 @@ class Comparer {
   CompareSettings settings_;
   Extent extent_;
   bool knows_beginning_;
+  bool takes_inputs_;
   SimTime shift_{0};  // from the capture's time to the bench's
   ReplayBench replay_;
   Judge judge_;

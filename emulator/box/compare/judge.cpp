@@ -18,29 +18,12 @@
 #include "emulator/device/register_map/register_map.h"
 #include "emulator/device/register_map/row.h"
 #include "emulator/device/register_map/wire_words.h"
-#include "pty/rtu_crc.h"
 
 namespace understudy::emulator::box {
 
 namespace {
 
 constexpr std::uint8_t kException = 0x80;
-
-/// Returns the words, or bits, of a good reply to a read; nothing for any other.
-std::vector<std::uint16_t> words_in(const Addressed& asked, std::span<const std::uint8_t> request,
-                                    std::span<const std::uint8_t> reply) {
-  const auto count = static_cast<std::size_t>(asked.count);
-  const bool has_bits = is_table_of_bits(asked.table);
-  const std::size_t size = has_bits ? (count + 7) / 8 : 2 * count;
-  const bool is_good = reply.size() == size + 5 && reply[0] == request[0] && reply[1] == request[1] &&
-                       reply[2] == size && pty::rtu_crc_ok(reply);
-  std::vector<std::uint16_t> words;
-  for (std::size_t i = 0; is_good && i < count; ++i) {
-    words.push_back(static_cast<std::uint16_t>(has_bits ? reply[3 + i / 8] >> i % 8 & 1
-                                                        : reply[3 + 2 * i] << 8 | reply[4 + 2 * i]));
-  }
-  return words;
-}
 
 /// Returns the worse of two verdicts about one reply.
 Verdict worse(Verdict a, Verdict b) {
@@ -125,6 +108,11 @@ Verdict Judge::judge_words(const Addressed& asked, const Exchange& exchange, con
       if (!is_pair) return value_of(words[at], type);
       return value_of(bits_of_wire(*place.row, words[at], words[at + 1], bank.low_word_first()), type);
     };
+    // A level that was taken from this reply cannot be judged by it.
+    if (std::ranges::find(bench_reply.taken, i) != bench_reply.taken.end()) {
+      verdict = worse(verdict, Verdict::undecidable);
+      continue;
+    }
     verdict = worse(verdict, judge_cell({.key = static_cast<std::uint32_t>(asked.table) << 16 | address,
                                          .type = type,
                                          .is_moving = place && place.row->moves(),

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <utility>
@@ -28,6 +29,9 @@ struct Addressed {
 };
 /// Returns nothing for frames of other functions, and for lines of text.
 std::optional<Addressed> addressed_by(std::span<const std::uint8_t> request);
+/// Returns the words, or bits, of a good reply to a read; nothing for any other.
+std::vector<std::uint16_t> words_in(const Addressed& asked, std::span<const std::uint8_t> request,
+                                    std::span<const std::uint8_t> reply);
 
 struct BenchReply {
   Frame bytes;                  // empty: there was no reply
@@ -38,6 +42,8 @@ struct BenchReply {
   /// The same for a query of a text controller whose reply is a number.
   std::optional<double> number_before{};
   std::optional<double> number_after{};
+  /// The words of the controller's reply from which levels of inputs were taken.
+  std::vector<std::size_t> taken{};
 };
 
 class ReplayBench {
@@ -49,8 +55,9 @@ class ReplayBench {
   ReplayBench& operator=(const ReplayBench&) = delete;
 
   /// Sends the request at `at`, and advances time until `until`, or until the reply is complete and the line
-  /// is quiet.
-  BenchReply ask(std::span<const std::uint8_t> request, SimTime at, SimTime until, SimTime tolerance);
+  /// is quiet. `shown` has the words of the controller's reply if inputs shall follow them.
+  BenchReply ask(std::span<const std::uint8_t> request, SimTime at, SimTime until, SimTime tolerance,
+                 std::span<const std::uint16_t> shown = {});
 
   /// The changes happen at their times as time passes.
   void set_inputs(std::vector<InputChange> changes) { inputs_ = std::move(changes); }
@@ -58,12 +65,21 @@ class ReplayBench {
   const world::WorldLine& line() const { return world_.line(line_); }
   /// Returns the registers of the station that the request is for, or null.
   const RegisterBank* bank_of(std::span<const std::uint8_t> request) const;
+  /// Returns the inputs whose levels were taken from replies: "feeder.DIN_2".
+  const std::set<std::string>& taken_inputs() const { return taken_inputs_; }
 
   /// Returns the present state of the devices that the request is for: registers, axes, terminals, in lines.
   std::vector<std::string> state_text(std::span<const std::uint8_t> request) const;
 
  private:
   class ReplyRecorder;
+  std::optional<std::size_t> device_of(std::span<const std::uint8_t> request) const;
+  std::vector<std::size_t> take_inputs(std::span<const std::uint8_t> request,
+                                       std::span<const std::uint16_t> shown,
+                                       std::span<const std::uint16_t> bench);
+  /// Returns true if a machine or a wire decides the level of an input.
+  bool is_driven(std::size_t device, int terminal) const;
+  bool takes_input(std::size_t device, int terminal, std::int32_t shown, std::int32_t bench);
   std::vector<std::uint16_t> registers_now(std::span<const std::uint8_t> request) const;
   std::optional<double> number_now(std::span<const std::uint8_t> request) const;
 
@@ -72,6 +88,7 @@ class ReplayBench {
   world::World world_;
   std::vector<InputChange> inputs_;
   std::size_t next_input_ = 0;
+  std::set<std::string> taken_inputs_;
   std::size_t line_;
   std::unique_ptr<ReplyRecorder> recorder_;
 };

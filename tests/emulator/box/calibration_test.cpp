@@ -196,6 +196,55 @@ TEST(Comparison, NamesTheChoicesThatWereAskedBeforeADifference) {
   }
 }
 
+TEST(Comparison, TakesInputsFromWhatRepliesShow) {
+  const struct {
+    std::string model, input;
+    std::vector<std::uint8_t> read;
+  } cases[] = {
+      {"simple2-r3", "DIN_10", frame({1, 3, 0x0D, 0x1A, 0, 1})},
+      {"simple2-r3", "DIN_10", frame({1, 3, 0x0D, 0x10, 0, 11})},
+      {"super-40nc", "X5", frame({0, 2, 0, 0, 0, 20})},
+  };
+  using enum Verdict;
+  for (const auto& row : cases) {
+    world::Bench held = bench_of(row.model);
+    const auto terminals = held.devices.front().model->terminals;
+    const auto input = std::ranges::find(terminals, row.input, &TerminalRow::name);
+    ASSERT_NE(input, terminals.end());
+    held.inputs.push_back({.device = 0, .terminal = static_cast<int>(input - terminals.begin()), .level = 1});
+    Capture capture = FakeBox::captured(held, {row.read, row.read}, std::chrono::seconds(5));
+    Capture released = FakeBox::captured(bench_of(row.model), {row.read, row.read}, std::chrono::seconds(6));
+    capture.exchanges.insert(capture.exchanges.end(), released.exchanges.begin(), released.exchanges.end());
+    const auto verdicts = [&](bool knows_inputs) {
+      std::vector<Verdict> all;
+      const CompareSettings settings{.from_power_up = true, .knows_inputs = knows_inputs};
+      for (const Judgement& one : compare(bench_of(row.model), capture, settings, Extent::whole).judgements)
+        all.push_back(one.verdict);
+      return all;
+    };
+    EXPECT_EQ(verdicts(false), (std::vector{undecidable, same, undecidable, same})) << row.model;
+    EXPECT_EQ(verdicts(true), (std::vector{different, different, same, same})) << row.model;
+  }
+}
+
+TEST(Comparison, LeavesInputsToTheMachineOfTheBench) {
+  const auto bench = [](int home) {
+    return world::parse_bench(
+        models::all_models(),
+        "understudy: 1\nlines: { line: { stations: [ { name: box, model: simple2-r3 } ] } }\n"
+        "plant: { box.A: { home: { at: " +
+            std::to_string(home) + ", width: 200 } } }\n",
+        "bench.yaml", ".");
+  };
+  const auto read = frame({1, 3, 0x0D, 0x14, 0, 1});  // DIN_4, the home switch of axis A
+  for (const auto& [of_box, of_bench] : {std::pair{0, 5000}, std::pair{5000, 0}}) {
+    const Capture capture = FakeBox::captured(bench(of_box), {read, read}, std::chrono::seconds(5));
+    const Comparison judged = compare(bench(of_bench), capture, {.from_power_up = true}, Extent::whole);
+    EXPECT_EQ(judged.judgements[0].verdict, Verdict::different);
+    EXPECT_EQ(judged.judgements[1].verdict, Verdict::different);
+  }
+}
+
 TEST(Comparison, LearnsWhatABoxHeldBeforeTheCapture) {
   const auto read = frame({1, 3, 0x10, 3, 0, 1});
   const auto write = frame({1, 6, 0x10, 3, 0, 100});
