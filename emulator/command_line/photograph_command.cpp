@@ -18,6 +18,7 @@
 #include "emulator/box/photograph/photograph.h"
 #include "emulator/box/wire/port_name.h"
 #include "emulator/command_line/commands.h"
+#include "emulator/command_line/interruption.h"
 #include "emulator/command_line/model_option.h"
 #include "emulator/command_line/output_paths.h"
 #include "emulator/command_line/result_file.h"
@@ -64,7 +65,8 @@ box::PhotoSettings settings_of(const Model& model, const PhotographArguments& ar
           .firmware = require_firmware(model, arguments.firmware),
           .timeout = *timeout,
           .modules = arguments.modules.value_or(0),
-          .has_arrays = arguments.arrays};
+          .has_arrays = arguments.arrays,
+          .is_over = is_interrupted};
 }
 
 /// Checks a path without creating anything. This happens before the controller is read, which takes seconds
@@ -121,6 +123,16 @@ void summarize(const box::Photograph& photo, const std::string& image, const std
   std::printf("wrote %s\n", file.c_str());
 }
 
+/// Writes the photograph without an image, which would say that everything else has its factory value.
+int keep_part(const box::Photograph& photo, const std::string& file) {
+  std::fprintf(stderr, "understudy: photograph: %s\n", one_line(photo.ended).c_str());
+  ResultFile("--output", file, ContentKind::photograph).write(box::photo_json(photo));
+  std::printf(
+      "wrote %s: the %zu values that were read, in %zu requests; no image, because others are missing\n",
+      file.c_str(), photo.values.size(), photo.exchanges.size());
+  return kExitFailed;
+}
+
 }  // namespace
 
 int take_photograph(ModelList models, const PhotographArguments& arguments) {
@@ -134,10 +146,12 @@ int take_photograph(ModelList models, const PhotographArguments& arguments) {
   FileClaims claims;
   require_writable(claims, arguments.output, ContentKind::nv_image);
   require_writable(claims, photo_path, ContentKind::photograph);
+  watch_for_interruption();
   try {
     const box::Photograph photo = photograph_with_progress(model, port, settings);
-    ResultFile("--output", arguments.output, ContentKind::nv_image).replace(to_json(photo.image));
-    ResultFile("--output", photo_path, ContentKind::photograph).replace(box::photo_json(photo));
+    if (!photo.ended.empty()) return keep_part(photo, photo_path);
+    ResultFile("--output", arguments.output, ContentKind::nv_image).write(to_json(photo.image));
+    ResultFile("--output", photo_path, ContentKind::photograph).write(box::photo_json(photo));
     summarize(photo, arguments.output, photo_path);
   } catch (const box::BoxError& error) {
     std::fprintf(stderr, "understudy: photograph: %s\n", error.what());

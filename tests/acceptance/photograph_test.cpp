@@ -243,6 +243,30 @@ TEST(Photograph, SaysWhenABoxStopsAnswering) {
   const std::string reported =
       diagnostic(photograph(dying.path(), "simple2-r3", folder / "b.nv.json", kSoon), 1);
   EXPECT_NE(reported.find("stopped answering after "), std::string::npos) << reported;
+  EXPECT_TRUE(json_of(folder / "b.photo.json")["ended"].is_string());
+}
+
+TEST(Photograph, KeepsWhatItHasWhenItIsInterrupted) {
+  for (const int signal_number : {SIGHUP, SIGINT, SIGTERM}) {
+    const PrivateFolder folder;
+    std::atomic<int> asked = 0;
+    const FakeBox slow([&](const Bytes& request) {
+      ++asked;
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+      return zeros_for(request, 1);
+    });
+    Process process(
+        {UNDERSTUDY_BINARY, "photograph", slow.path(), "--model", "simple2-r3", "-o", folder / "b.nv.json"});
+    ASSERT_TRUE(eventually([&] { return asked > 3; }));
+    process.send(signal_number);
+    EXPECT_EQ(process.wait(kPatience), 1) << signal_number;
+    EXPECT_NE(process.errors().find("photograph: interrupted"), std::string::npos) << process.errors();
+    const json photo = json_of(folder / "b.photo.json");
+    EXPECT_EQ(photo["ended"], "interrupted");
+    EXPECT_GT(photo["values"].size(), 0U);
+    EXPECT_LT(photo["values"].size(), 1285U);
+    EXPECT_FALSE(std::filesystem::exists(folder / "b.nv.json"));
+  }
 }
 
 TEST(Photograph, AsksOneByOneWhereABlockIsRefused) {

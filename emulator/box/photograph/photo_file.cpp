@@ -67,6 +67,7 @@ std::string photo_json(const Photograph& photo) {
   if (!photo.line.empty()) json["line"] = photo.line;
   if (photo.station >= 0) json["station"] = photo.station;
   json["echo"] = photo.is_echoing;
+  if (!photo.ended.empty()) json["ended"] = photo.ended;
   const Latencies latencies = latencies_of(photo);
   json["latency_us"] = {{"least", in_microseconds(latencies.min)},
                         {"median", in_microseconds(latencies.median)},

@@ -13,6 +13,10 @@
 
 namespace understudy::emulator::box {
 
+struct PhotoInterrupted : BoxError {
+  PhotoInterrupted() : BoxError("interrupted") {}
+};
+
 /// The state of a photograph in progress.
 struct PhotoWork {
   const Model& model;
@@ -24,8 +28,9 @@ struct PhotoWork {
   int modules = 0;  // of a chain, once it is known
 
   void note(Asked asked);
-  /// Reports the next question.
+  /// Reports the next question. Throws PhotoInterrupted.
   void report(std::string_view next) const {
+    if (settings.is_over && settings.is_over()) throw PhotoInterrupted();
     if (progress) progress(photo.exchanges.size(), next);
   }
   /// Adds a value that the controller did not return.

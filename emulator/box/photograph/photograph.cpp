@@ -94,7 +94,15 @@ Photograph photograph(const Model& model, const PortName& port, const PhotoSetti
   PhotoWork work{.model = model, .port = port, .settings = settings, .progress = progress, .wire = *wire};
   work.photo.model = std::string(model.name);
   work.photo.place = port.place;
-  is_modbus ? photograph_registers(work) : photograph_text(work);
+  try {
+    is_modbus ? photograph_registers(work) : photograph_text(work);
+  } catch (const BoxError& error) {
+    if (work.photo.values.empty()) throw;
+    work.photo.ended = error.what();
+  } catch (const WireError& error) {
+    if (work.photo.values.empty()) throw;
+    work.photo.ended = error.what();
+  }
   return std::move(work.photo);
 }
 

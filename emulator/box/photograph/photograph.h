@@ -43,6 +43,8 @@ struct Photograph {
   NvImage image{};                 // persistent values that differ from the factory's
   /// Persistent values that an image of the model cannot hold, and why.
   std::vector<std::pair<std::string, std::string>> left_out{};
+  /// Why it ended before everything was read; then it has no image. Empty: it is whole.
+  std::string ended{};
 };
 
 /// Receives the progress: the number of requests so far, and the next question.
@@ -57,14 +59,16 @@ struct PhotoSettings {
   std::optional<int> station{};
   Firmware firmware = 0;
   WallTime timeout{0};
-  int modules = 0;          // of a chain; 0: ask the chain
-  bool has_arrays = false;  // also reads the long arrays of a text controller
+  int modules = 0;                  // of a chain; 0: ask the chain
+  bool has_arrays = false;          // also reads the long arrays of a text controller
+  std::function<bool()> is_over{};  // asked before each request; empty: nothing ends it
 };
 
 /// Throws BoxError for a model of Modbus ASCII, which is only emulated, except behind a gateway.
 void require_rtu(const Model& model, const PortName& port);
 
-/// Reads everything. Only reads are sent. Throws BoxError and WireError.
+/// Reads everything. Only reads are sent. If it ends early, it returns what it has. Throws BoxError and
+/// WireError if nothing was read.
 Photograph photograph(const Model& model, const PortName& port, const PhotoSettings& settings,
                       const PhotoProgress& progress);
 
