@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <exception>
 #include <functional>
 #include <istream>
 #include <optional>
@@ -83,12 +84,18 @@ struct CaptureReadError : FileError {
   using FileError::FileError;
 };
 
+/// Thrown if the settings say that reading is over.
+struct CaptureInterrupted : std::exception {
+  const char* what() const noexcept override { return "interrupted"; }
+};
+
 struct CaptureSettings {
   std::string line{};                   // one of several lines; empty: the only one
   bool is_text = false;                 // the line speaks text, not Modbus
   std::string pattern{};                // of the lines of a log (log_pattern.h); empty: one of the known ones
   std::optional<SimTime> every{};       // the time between requests, if the file tells no times
   std::optional<double> sample_rate{};  // in Hz, if the file counts samples
+  std::function<bool()> is_over{};      // asked again and again; empty: nothing ends the reading
 };
 
 /// Returns the format of a file from its beginning ("a log of socat -x"), or nothing if it is not a known
@@ -98,7 +105,7 @@ std::string capture_format(const std::string& head);
 using ExchangeSink = std::function<void(Exchange exchange)>;
 
 /// Reads a capture, and hands on each exchange when the next one begins. It holds only the exchange that is
-/// read. Throws CaptureReadError.
+/// read. Throws CaptureReadError and CaptureInterrupted.
 CaptureNotes read_exchanges(std::istream& file, const std::string& path, const CaptureSettings& settings,
                             const ExchangeSink& sink);
 /// Like the above, for a file that cannot go back to its beginning. `head` is the beginning, or as much of it

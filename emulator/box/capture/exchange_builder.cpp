@@ -14,6 +14,7 @@
 #include "base/text/one_line.h"
 #include "emulator/box/capture/capture.h"
 #include "emulator/box/capture/rtu_frames.h"
+#include "pty/rtu_crc.h"
 
 namespace understudy::emulator::box {
 
@@ -56,6 +57,13 @@ bool changes_nothing(const CapturedBytes& reply) {
          code == 0x0C || code == 0x11 || code == 0x2B;
 }
 
+bool is_text(const CapturedBytes& bytes) {
+  return std::ranges::all_of(bytes, [](std::uint8_t byte) {
+    constexpr std::uint8_t kFirstControl = 0x08, kLastControl = 0x0D, kEscape = 0x1B;
+    return (byte >= ' ' && byte <= '~') || (byte >= kFirstControl && byte <= kLastControl) || byte == kEscape;
+  });
+}
+
 bool ends_line(std::uint8_t byte) { return byte == '\r' || byte == '\n'; }
 
 }  // namespace
@@ -83,6 +91,14 @@ bool ExchangeBuilder::is_of_wanted_line(const CapturedPiece& piece) {
   return true;
 }
 
+/// Bytes that are no text, with the checksum of a frame, are none by accident.
+void ExchangeBuilder::require_protocol(const CapturedPiece& piece) const {
+  if (!settings_.is_text || is_text(piece.bytes) || !pty::rtu_crc_ok(piece.bytes)) return;
+  throw refuse(
+      piece.place,
+      "is a frame of Modbus, but the line of the bench speaks text; expected a capture of that line");
+}
+
 void ExchangeBuilder::require_rising_time(const CapturedPiece& piece) {
   if (!piece.at) {
     if (!settings_.every)
@@ -103,7 +119,9 @@ void ExchangeBuilder::require_rising_time(const CapturedPiece& piece) {
 }
 
 void ExchangeBuilder::add(CapturedPiece piece) {
+  if (settings_.is_over && settings_.is_over()) throw CaptureInterrupted();
   if (piece.bytes.empty() || !is_of_wanted_line(piece)) return;
+  require_protocol(piece);
   require_rising_time(piece);
   last_place_ = piece.place;
   if (!has_pieces_ && piece.at && !notes_.begins_at_power_up) first_ = notes_.first_at = *piece.at;
@@ -263,6 +281,7 @@ void ExchangeBuilder::take_request(FoundFrame frame) {
     ++notes_.lost_requests;
   }
   lost_ = 0;
+  has_text_ = has_text_ || is_text(frame.bytes);
   const SimTime at = frame.at
                          ? *frame.at
                          : static_cast<std::int64_t>(notes_.exchanges) * settings_.every.value_or(SimTime{0});
@@ -381,6 +400,10 @@ void ExchangeBuilder::finish() {
           " bytes, but no frame of Modbus RTU or TCP; expected a capture of a line of this bench");
     throw CaptureReadError(path_ + ": has no request from a host; expected a capture of both directions");
   }
+  if (settings_.is_text && !has_text_)
+    throw CaptureReadError(path_ + ": none of its " + std::to_string(notes_.exchanges) +
+                           " requests is a line of text, as the line of the bench has them; expected a "
+                           "capture of that line");
   if (replies_taken_ == 0 && !notes_.begins_at_power_up)
     throw CaptureReadError(path_ + ": has " + std::to_string(notes_.exchanges) +
                            " requests, but no reply; expected a capture of both directions");

@@ -28,6 +28,7 @@ class ExchangeBuilder {
 
   CaptureReadError refuse(std::size_t place, const std::string& what) const;
   bool is_of_wanted_line(const CapturedPiece& piece);
+  void require_protocol(const CapturedPiece& piece) const;
   void require_rising_time(const CapturedPiece& piece);
   void hold_until_sides_are_known(CapturedPiece piece);
   void decide_sides();
@@ -76,6 +77,7 @@ class ExchangeBuilder {
   SimTime first_{0};
   SimTime last_at_{0};  // of the last request
   bool has_pieces_ = false;
+  bool has_text_ = false;  // a request that is a line of text
   bool follows_loss_ = false;
   std::size_t lost_ = 0;  // bytes of a request that was not found, since the last reply
   std::size_t replies_taken_ = 0;

@@ -14,6 +14,7 @@
 
 #include "base/simulated_time.h"
 #include "base/text/lines.h"
+#include "base/text/one_line.h"
 #include "emulator/box/capture/capture.h"
 #include "emulator/box/capture/log_pattern.h"
 #include "emulator/box/capture/piece_readers.h"
@@ -98,6 +99,8 @@ std::optional<Log> recognized(std::string_view head) {
   return best;
 }
 
+constexpr std::size_t kShownOfLine = 80;
+
 class LogReader {
  public:
   LogReader(Log log, std::string_view head, const std::string& path, const CaptureSettings& settings,
@@ -115,7 +118,9 @@ class LogReader {
   void read(std::istream& file) {
     for (std::string text; std::getline(file, text);) {
       ++number_;
+      if (first_line_.empty()) first_line_ = text.substr(0, kShownOfLine);
       if (auto line = log_.match(text)) {
+        has_matched_ = true;
         hand_on();
         take(*line);
       } else if (piece_ && log_.bytes_follow) {
@@ -123,9 +128,16 @@ class LogReader {
       }
     }
     hand_on();
+    if (!has_matched_ && !settings_.pattern.empty()) throw no_match();
   }
 
  private:
+  CaptureReadError no_match() const {
+    return CaptureReadError(path_ + ": none of its " + std::to_string(number_) + " lines fits --pattern " +
+                            quoted(settings_.pattern) + "; expected a pattern of whole lines such as " +
+                            quoted(first_line_));
+  }
+
   void take(LogLine& line) {
     CapturedPiece piece{
         .at = time_of(line), .side = line.side, .bytes = std::move(line.bytes), .place = number_};
@@ -180,6 +192,8 @@ class LogReader {
   const CaptureSettings& settings_;
   const PieceSink& sink_;
   std::size_t number_ = 0;
+  std::string first_line_;  // its beginning, for a message; not empty, if any is not
+  bool has_matched_ = false;
   std::optional<CapturedPiece> piece_;
   std::vector<std::string> names_;
   bool has_nanoseconds_ = false;

@@ -209,7 +209,7 @@ TEST(ForeignCapture, SaysWhatItLacksInOneLine) {
        "c.txt:2: the time of these bytes is before"},
       {"0.1 > 50 41 0D\n", {.pattern = pattern}, "has 3 bytes, but no frame of Modbus"},
       {"hello\n", {}, "is not a known capture; expected one of"},
-      {"hello\n", {.pattern = pattern}, "has no request from a host"},
+      {"hello\n", {.pattern = pattern}, "none of its 1 lines fits --pattern"},
       {"hello\n", {.pattern = "{tme} {hex}"}, "--pattern: '{tme}' is not a field; expected {time}"},
       {"hello\n", {.pattern = "{time}"}, "--pattern: '{time}' has no bytes; expected {hex}"},
       {"", {}, "is not a known capture"},
@@ -219,6 +219,24 @@ TEST(ForeignCapture, SaysWhatItLacksInOneLine) {
     EXPECT_NE(reported.find(one.what), std::string::npos) << reported;
     EXPECT_EQ(reported.find('\n'), std::string::npos);
   }
+}
+
+TEST(ForeignCapture, SaysThatAPatternFitsNoLine) {
+  const std::string log = "\n12.5 tx 01 03 00 01 00 01 D5 CA\n12.6 rx 01 03 02 C0 01 29 84\n";
+  const auto diagnostic = [&](const std::string& pattern) -> std::string {
+    std::istringstream file(log);
+    try {
+      read_capture(file, "c.txt", {.pattern = pattern});
+    } catch (const CaptureReadError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(diagnostic("{time} {dir} {hex}"), "");
+  EXPECT_EQ(
+      diagnostic("{time} {dir}: {hex}"),
+      "c.txt: none of its 3 lines fits --pattern '{time} {dir}: {hex}'; expected a pattern of whole lines "
+      "such as '12.5 tx 01 03 00 01 00 01 D5 CA'");
 }
 
 TEST(LogTime, TakesWhatLogsBeginWith) {
