@@ -101,6 +101,8 @@ box::CaptureSettings capture_settings(const BoxBench& box, const CompareArgument
                        " is not an interval; expected a duration such as 20ms");
   }
   if (arguments.sample_rate > 0) settings.sample_rate = arguments.sample_rate;
+  // A growing capture has its own end (FollowedFile).
+  if (!arguments.follow) settings.is_over = is_interrupted;
   return settings;
 }
 
@@ -166,15 +168,21 @@ box::CaptureNotes take_exchanges(ModelList models, const BoxBench& box, const st
   StationFilter filter(box);
   if (is_recording) {
     box::Capture capture = box::read_recorded_capture(models, file, path, box.reading, box.bench);
-    for (box::Exchange& exchange : capture.exchanges)
+    for (box::Exchange& exchange : capture.exchanges) {
+      if (is_interrupted()) return capture.notes;
       if (filter.keeps(exchange, capture.notes)) take(std::move(exchange), capture.notes, capture.inputs);
+    }
     filter.require_some(path);
     return capture.notes;
   }
   box::CaptureNotes notes;
-  box::read_exchanges(file, head, path, box.reading, notes, [&](box::Exchange exchange) {
-    if (filter.keeps(exchange, notes)) take(std::move(exchange), notes, {});
-  });
+  try {
+    box::read_exchanges(file, head, path, box.reading, notes, [&](box::Exchange exchange) {
+      if (filter.keeps(exchange, notes)) take(std::move(exchange), notes, {});
+    });
+  } catch (const box::CaptureInterrupted&) {
+    return notes;
+  }
   filter.require_some(path);
   return notes;
 }

@@ -1,6 +1,10 @@
 // Implements `compare`: plays captures against a bench, and judges each reply.
+#include <algorithm>
+#include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <cstdio>
+#include <filesystem>
 #include <optional>
 #include <set>
 #include <string>
@@ -26,6 +30,7 @@
 #include "emulator/command_line/interruption.h"
 #include "emulator/command_line/output_paths.h"
 #include "emulator/command_line/result_file.h"
+#include "emulator/command_line/terminal.h"
 #include "emulator/device/model.h"
 #include "emulator/device/register_map/register_bank.h"
 
@@ -99,8 +104,33 @@ Remedy remedy_of(const BoxBench& box, const box::Hypothesis& hypothesis) {
   return remedy;
 }
 
-/// Reads the capture once, and a second time if the controller's clock turns out to be inaccurate.
-CaptureComparison compare_one(ModelList models, const BoxBench& box, const std::string& path) {
+/// How far a comparison is. The line of progress reads it on another thread.
+struct CompareTally {
+  enum class Phase : std::uint8_t { comparing, fitting_the_clock, trying_options };
+  std::atomic<Phase> phase = Phase::comparing;
+  std::atomic<std::size_t> compared = 0;  // exchanges of all captures
+  box::CalibrateTally options{};
+};
+
+/// Returns the line of progress, which should fit into 80 columns.
+std::string progress_of(const CompareTally& tally, double seconds) {
+  char rate[32];
+  std::snprintf(rate, sizeof rate, ", %.0f/s",
+                seconds > 0 ? static_cast<double>(tally.compared) / seconds : 0);
+  switch (tally.phase) {
+    case CompareTally::Phase::comparing: break;
+    case CompareTally::Phase::fitting_the_clock: return "they differ; trying another speed of the clock";
+    case CompareTally::Phase::trying_options:
+      return "they differ; trying other options: " + std::to_string(tally.options.tried.load()) + " of " +
+             std::to_string(tally.options.planned.load());
+  }
+  return std::to_string(tally.compared.load()) + " exchanges" + rate;
+}
+
+/// Reads the capture once, and once more if the controller's clock turns out to be off. If the user
+/// interrupts it, it returns what was compared by then.
+CaptureComparison compare_one(ModelList models, const BoxBench& box, const std::string& path,
+                              CompareTally& tally) {
   box::CompareSettings settings = box.settings;
   box::Capture head{.path = path, .line = {}, .exchanges = {}};
   const auto read = [&] {
@@ -110,6 +140,7 @@ CaptureComparison compare_one(ModelList models, const BoxBench& box, const std::
                                   compared.add(exchange, judgement);
                                 });
     const bool is_first = head.exchanges.empty();
+    tally.phase = CompareTally::Phase::comparing;
     compared.notes = take_exchanges(models, box, path,
                                     [&](box::Exchange exchange, const box::CaptureNotes& notes,
                                         const std::vector<box::InputChange>& inputs) {
@@ -118,25 +149,32 @@ CaptureComparison compare_one(ModelList models, const BoxBench& box, const std::
                                         head.exchanges.push_back(exchange);
                                       head.is_cut = head.is_cut || head.exchanges.size() == kHeld;
                                       streamed.add(std::move(exchange), notes, inputs);
+                                      ++tally.compared;
                                     });
     streamed.finish();
+    compared.is_interrupted = is_interrupted();
     compared.usual_delay = streamed.usual_delay();
     compared.taken_inputs = streamed.taken_inputs();
     compared.drift_ppm = settings.drift_ppm;
     return compared;
   };
   CaptureComparison compared = read();
-  if (!compared.is_different()) return compared;
+  if (!compared.is_different() || compared.is_interrupted) return compared;
   head.notes = compared.notes;
-  settings.drift_ppm = box::fit_drift(box.bench, head, settings);
+  tally.phase = CompareTally::Phase::fitting_the_clock;
+  settings.drift_ppm = box::fit_drift(box.bench, head, settings, is_interrupted);
   if (settings.drift_ppm != 0) compared = read();
-  if (!compared.is_different()) return compared;
+  if (!compared.is_different() || compared.is_interrupted) return compared;
   compared.has_searched = compared.first_number() < head.exchanges.size();
   if (!compared.has_searched) return compared;
   compared.first_section = section_of(box, head.exchanges[compared.first_number()]);
+  tally.options.tried = tally.options.planned = 0;
+  tally.phase = CompareTally::Phase::trying_options;
   for (const box::Hypothesis& one :
-       box::remedies(box.bench, head, compared.first_number(), {.compare = settings}))
+       box::remedies(box.bench, head, compared.first_number(), {.compare = settings},
+                     {.is_over = is_interrupted, .tally = &tally.options}))
     compared.remedies.push_back(remedy_of(box, one));
+  compared.is_interrupted = is_interrupted();
   return compared;
 }
 
@@ -184,11 +222,19 @@ int compare_captures(ModelList models, const CompareArguments& arguments) {
   claims.add({arguments.bench, "the bench itself"});
   for (const std::string& path : arguments.captures) claims.add({path, "an input capture"});
   ResultFile page("--report", require_output(claims, "--report", arguments.report), ContentKind::page);
+  // Reading a pipe ends only when its writer does, so Ctrl-C must end the program.
+  const auto is_file = [](const std::string& path) { return std::filesystem::is_regular_file(path); };
+  if (std::ranges::all_of(arguments.captures, is_file)) watch_for_interruption();
   std::vector<CaptureComparison> all;
   bool is_different = false;
   for (const std::string& path : arguments.captures) {
-    all.push_back(compare_one(models, box, path));
-    is_different = is_different || all.back().is_different();
+    if (is_interrupted()) break;
+    {
+      CompareTally tally;
+      const ProgressLine progress([&](double seconds) { return progress_of(tally, seconds); });
+      all.push_back(compare_one(models, box, path, tally));
+    }
+    is_different = is_different || all.back().is_different() || all.back().is_interrupted;
     if (*format == FindingFormat::text) std::fputs(all.back().text().c_str(), stdout);
   }
   if (*format == FindingFormat::json) {

@@ -39,6 +39,9 @@ constexpr std::size_t kMaxListedReplies = 10'000;
 /// The number of kinds of requests is limited, because all text lines can be different.
 constexpr std::size_t kMaxRequestKinds = 4096;
 
+constexpr std::string_view kInterrupted =
+    "interrupted: the rest was not compared, and not all options were tried";
+
 std::size_t index_of(Verdict verdict) { return static_cast<std::size_t>(verdict); }
 
 std::string delay_text(SimTime time) {
@@ -155,6 +158,7 @@ std::string CaptureComparison::line_of(const std::string& path, const JudgedRepl
 std::string CaptureComparison::text() const {
   std::string text =
       path_ + ": " + std::to_string(exchanges_) + " exchanges: " + verdicts_text(counts_) + "\n";
+  if (is_interrupted) text += "  " + std::string(kInterrupted) + "\n";
   for (const std::string& note : notes_text(notes)) text += "  " + note + "\n";
   if (!taken_inputs.empty()) text += "  " + inputs_text(taken_inputs) + "\n";
   if (drift_ppm != 0) text += "  " + clock_text(drift_ppm) + "\n";
@@ -181,9 +185,9 @@ std::string CaptureComparison::text() const {
   for (const Remedy& remedy : remedies)
     text += "    it agrees with  " + remedy.text +
             (remedy.section.empty() ? "" : "  (" + one_line(remedy.section) + ")") + "\n";
-  if (remedies.empty())
-    text += has_searched ? "    no other option of a single choice agrees with this reply\n"
-                         : "    this is so late in the capture that no other options were tried\n";
+  if (remedies.empty() && !is_interrupted)
+    text += has_searched ? "    no other option of a single choice agrees with it\n"
+                         : "    it is so late in the capture that no other options were tried\n";
   for (const auto& [kind, counts] : by_kind_) {
     const std::size_t different = counts[index_of(Verdict::different)];
     const std::size_t all = std::accumulate(counts.begin(), counts.end(), std::size_t{0});
@@ -198,6 +202,7 @@ Json CaptureComparison::json() const {
   Json report{{"capture", path_}, {"line", notes.line}, {"exchanges", exchanges_}};
   for (const auto& [verdict, name] : box::kVerdictNames)
     report[std::string(name)] = counts_[index_of(verdict)];
+  if (is_interrupted) report["interrupted"] = true;
   report["format"] = notes.format;
   report["notes"] = notes_text(notes);
   report["inputs_from_replies"] = taken_inputs;
@@ -255,6 +260,7 @@ CheckedFile CaptureComparison::findings() const {
 std::string CaptureComparison::page_sections() const {
   using Rows = std::vector<std::vector<std::string>>;
   Rows summary{{"exchanges", std::to_string(exchanges_)}, {"verdicts", verdicts_text(counts_)}};
+  if (is_interrupted) summary.push_back({"note", std::string(kInterrupted)});
   for (const std::string& note : notes_text(notes)) summary.push_back({"note", note});
   if (!taken_inputs.empty()) summary.push_back({"inputs", inputs_text(taken_inputs)});
   if (drift_ppm != 0) summary.push_back({"clock", clock_text(drift_ppm)});

@@ -58,7 +58,8 @@ class CaptureComparison {
   box::CaptureNotes notes{};
   std::string first_section{};  // the manual's section about the register of the first difference
   std::vector<Remedy> remedies{};
-  bool has_searched = true;  // the program has searched for remedies
+  bool has_searched = true;     // remedies were searched for
+  bool is_interrupted = false;  // only a part was read or searched
   double drift_ppm = 0;
   SimTime usual_delay{0};
   std::set<std::string> taken_inputs{};  // whose levels were taken from replies

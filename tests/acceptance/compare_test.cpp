@@ -199,6 +199,40 @@ TEST_F(Compare, ReportsHowFarASearchIsAndEndsItAtCtrlC) {
   EXPECT_EQ(run({"cat", evidence}).output, written);
 }
 
+TEST_F(Compare, ReportsHowFarItIsAndEndsAtCtrlC) {
+  const std::string other = folder_.write("other.txt", many_reads("01 03 02 C0 02 69 85"));
+  AtTerminal compare({UNDERSTUDY_BINARY, "compare", other, "--bench", plain_, "--power-up"},
+                     {{"TERM", "xterm"}, {"CI", ""}});
+  EXPECT_TRUE(compare.shows("they differ; trying other options: ")) << compare.screen();
+  compare.type("\x03");
+  EXPECT_TRUE(compare.shows("12000 exchanges: 11999 same, 1 different")) << compare.screen();
+  EXPECT_TRUE(compare.shows("interrupted: ")) << compare.screen();
+  EXPECT_TRUE(compare.shows("first difference: " + other + ":23999")) << compare.screen();
+  EXPECT_EQ(compare.wait(kPatience), 1);
+}
+
+TEST_F(Compare, RefusesFramesOfModbusForALineOfText) {
+  const std::string bench = folder_.write(
+      "slim.yaml", "understudy: 1\nlines: { line: { stations: [ { name: motor, model: slim } ] } }\n");
+  const std::string capture = folder_.write("reads.txt", three_reads("01 03 02 C0 01 29 84"));
+  const std::string log = folder_.write("bytes.txt",
+                                        "0.1 > 01\n0.2 > 03 00 01\n0.3 > 00 01 D5 CA\n0.4 < 01 03 02 C0 01\n"
+                                        "0.5 > 0D\n0.6 < 29 84\n");
+  for (const Words& words : {Words{"compare", capture}, Words{"calibrate", capture},
+                             Words{"compare", log, "--pattern", "{time} {dir} {hex}"}}) {
+    Words all = words;
+    all.insert(all.end(), {"--bench", bench});
+    const Finished finished = understudy(all);
+    EXPECT_EQ(finished.exit_code, 2) << finished.output;
+    EXPECT_EQ(lines_of(finished.errors).size(), 1U) << finished.errors;
+    const std::string what = words[1] == capture
+                                 ? "reads.txt:1: is a frame of Modbus, but the line of the bench "
+                                   "speaks text; expected a capture of that line"
+                                 : "none of its 1 requests is a line of text";
+    EXPECT_NE(finished.errors.find(what), std::string::npos) << finished.errors;
+  }
+}
+
 TEST_F(Compare, FindsThatAnotherSlaveIsNoneOfOurs) {
   // libmodbus's debug output of a slave made with pymodbus.
   const std::string log = PROJECT_FOLDER "/tests/emulator/box/captures/other_slave.txt";

@@ -374,17 +374,21 @@ Calibration calibrate(const world::Bench& bench, const std::vector<Capture>& cap
 }
 
 std::vector<Hypothesis> remedies(const world::Bench& bench, const Capture& capture,
-                                 std::size_t first_difference, const CalibrateSettings& settings) {
+                                 std::size_t first_difference, const CalibrateSettings& settings,
+                                 const CalibrateWatch& watch) {
   std::vector<Capture> until{capture};
   until.front().exchanges.resize(first_difference + 1);
   until.front().is_cut = true;  // so a missing reply at its end is a difference
-  const CalibrateWatch nobody;
-  Search search(bench, until, settings, nobody);
+  Search search(bench, until, settings, watch);
   std::vector<Hypothesis> good;
   const std::vector<Hypothesis> all = search.neighbours_of({});
-  const std::vector<Reach> reaches = search.reach_of(all);
-  for (std::size_t i = 0; i < all.size(); ++i)
-    if (reaches[i].is_whole) good.push_back(all[i]);
+  try {
+    const std::vector<Reach> reaches = search.reach_of(all);
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if (reaches[i].is_whole) good.push_back(all[i]);
+  } catch (const Interrupted&) {
+    good.clear();
+  }
   return good;
 }
 

@@ -92,9 +92,11 @@ struct CalibrateWatch {
 Calibration calibrate(const world::Bench& bench, const std::vector<Capture>& captures,
                       const CalibrateSettings& settings, const CalibrateWatch& watch = {});
 
-/// Returns the options that, changed alone, remove the first difference of a capture.
+/// Returns the options that, changed alone, remove the first difference of a capture. Returns none if the
+/// search is ended.
 std::vector<Hypothesis> remedies(const world::Bench& bench, const Capture& capture,
-                                 std::size_t first_difference, const CalibrateSettings& settings);
+                                 std::size_t first_difference, const CalibrateSettings& settings,
+                                 const CalibrateWatch& watch = {});
 
 std::string option_name(const world::Bench& bench, ChoiceKey key, std::uint8_t number);
 std::string choice_id(const world::Bench& bench, ChoiceKey key);
