@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <random>
+#include <string>
 
 #include "emulator/box/compare/comparison.h"
 #include "tests/emulator/box/fake_box.h"
@@ -49,13 +51,20 @@ std::string describe(const world::Bench& bench, const Hypothesis& hypothesis) {
   return text;
 }
 
+/// UNDERSTUDY_FAKE_BOXES=500 tries so many.
+std::size_t boxes() {
+  const char* const given = std::getenv("UNDERSTUDY_FAKE_BOXES");
+  return given != nullptr ? std::stoul(given) : kHidden.size();
+}
+
 TEST(Calibration, FindsOneToEightHiddenOptionsAndNoneWrong) {
   const world::Bench plain = bench_of("simple2-r3");
   const CalibrateSettings settings{.compare = {.from_power_up = true}, .threads = 1};
   std::mt19937 random(40);
   std::size_t hidden = 0;
   std::size_t found = 0;
-  for (std::size_t count = 1; count <= kHidden.size(); ++count) {
+  for (std::size_t box = 0; box < boxes(); ++box) {
+    const std::size_t count = 1 + box % kHidden.size();
     auto shuffled = kHidden;
     std::shuffle(shuffled.begin(), shuffled.end(), random);
     const Options options(shuffled.begin(), shuffled.begin() + static_cast<std::ptrdiff_t>(count));
@@ -79,6 +88,8 @@ TEST(Calibration, FindsOneToEightHiddenOptionsAndNoneWrong) {
       if (finding.state == RowFinding::State::measured) ++found;
     }
   }
+  RecordProperty("hidden_and_exercised", std::to_string(hidden));
+  RecordProperty("found", std::to_string(found));
   EXPECT_GE(found * 100, hidden * 95) << found << " of " << hidden;
   EXPECT_GE(found, 20U);
 }
