@@ -2,8 +2,11 @@
 
 #include <signal.h>
 #include <time.h>
+#include <unistd.h>
 
+#include <cerrno>
 #include <csignal>
+#include <string_view>
 
 #include "base/simulated_time.h"
 
@@ -26,6 +29,23 @@ void watch_for_interruption() {
     sigaction(number, nullptr, &before);
     if (before.sa_handler != SIG_IGN) sigaction(number, &action, nullptr);
   }
+}
+
+void watch_for_interruption_of_machine() {
+  watch_for_interruption();
+  struct sigaction action {};
+  action.sa_handler = [](int) { is_over = 1; };
+  sigaction(SIGQUIT, &action, nullptr);
+  action.sa_handler = [](int) {
+    constexpr std::string_view kRefusal =
+        "\nunderstudy: Ctrl-Z is refused, because the machine may move; Ctrl-C stops it, and ends the "
+        "program\n";
+    const int before = errno;
+    const auto ignored = write(STDERR_FILENO, kRefusal.data(), kRefusal.size());
+    static_cast<void>(ignored);
+    errno = before;
+  };
+  sigaction(SIGTSTP, &action, nullptr);
 }
 
 bool is_interrupted() { return is_over != 0; }

@@ -126,7 +126,7 @@ OnBox::OnBox(const OnArguments& arguments, bool puts_back)
   of_rehearsals_.only_plans = false;
   of_rehearsals_.say = {};
   settings_.puts_back = puts_back && !arguments.plan;
-  if (!arguments.plan) watch_for_interruption();
+  if (!arguments.plan) watch_for_interruption_of_machine();
 }
 
 std::unique_ptr<play::Executor> OnBox::make(const play::Scenario& scenario) {

@@ -35,7 +35,7 @@ Words run_on(const std::string& file, const CountingBox& box, const Words& flags
 }
 
 TEST(RunOnStops, AtEverySignalThatEndsPrograms) {
-  for (const int signal_number : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) {
+  for (const int signal_number : {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGQUIT}) {
     const PrivateFolder folder;
     const CountingBox box;
     Process process(run_on(moving(folder, "  - advance: 60s\n"), box));
@@ -45,6 +45,20 @@ TEST(RunOnStops, AtEverySignalThatEndsPrograms) {
     EXPECT_GE(box.writes_to(kAllStop), 1) << signal_number;
     EXPECT_TRUE(has(process.errors(), "stop: box: ALL_STOP = 1: done")) << process.errors();
   }
+}
+
+/// A program that sleeps cannot stop anything.
+TEST(RunOnStops, RefusesToSleep) {
+  const PrivateFolder folder;
+  const CountingBox box;
+  AtTerminal terminal(run_on(moving(folder, "  - advance: 60s\n"), box));
+  ASSERT_TRUE(eventually([&] { return box.writes_to(kMove) == 1; }));
+  terminal.type("\x1a");
+  EXPECT_TRUE(terminal.shows("Ctrl-Z is refused, because the machine may move; Ctrl-C stops it"));
+  EXPECT_EQ(box.writes_to(kAllStop), 0);
+  terminal.type("\x1c");
+  EXPECT_TRUE(terminal.shows("stop: box: ALL_STOP = 1: done"));
+  EXPECT_EQ(terminal.wait(kPatience), 1);
 }
 
 TEST(RunOnStops, WhileItWaitsForAReply) {

@@ -22,8 +22,10 @@ namespace understudy::emulator::box {
 
 namespace {
 
-/// Becomes the shell that runs the command. Nothing is allocated between fork and exec.
+/// Becomes the shell that runs the command. Nothing is allocated between fork and exec. Ctrl-Z does not stop
+/// it, since nobody would let it go on.
 [[noreturn]] void become_rig(char* const* words, int output) {
+  signal(SIGTSTP, SIG_IGN);
   dup2(output, STDOUT_FILENO);
   execvp("sh", words);
   _exit(127);
