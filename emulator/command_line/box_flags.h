@@ -73,7 +73,8 @@ inline void add_probe_flags(CLI::App& command, ProbeArguments& probe) {
   command.add_option("--model", probe.model, "The controller's model")->required()->check(kNotEmpty);
   command.add_option("-o,--output", probe.output, "Evidence to write: FILE.json")->check(kNotEmpty);
   add_box_name(command, probe.box);
-  command.add_option("--station", probe.station, "Station number of the controller [that of the proofs]");
+  command.add_option("--station", probe.station, "Station to ask [that of the proofs]");
+  command.add_option("--modules", probe.modules, "Modules of the chain")->capture_default_str();
   command.add_option("--firmware", probe.firmware, "The controller's firmware version [newest]")
       ->check(kNotEmpty);
   command.add_option("--proofs", probe.proofs, "Folder of proofs [the one that comes with this program]")

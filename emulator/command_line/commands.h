@@ -127,6 +127,7 @@ struct ProbeArguments {
   std::string proofs;    // a folder; empty: the folder installed with the program
   std::string firmware;  // empty: the newest version
   std::optional<int> station{};
+  int modules = 1;   // of a chain
   OnArguments on{};  // its `on` is not used
 };
 /// Plays the proofs of choices on a real controller.

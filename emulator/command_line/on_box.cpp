@@ -15,11 +15,13 @@
 #include "emulator/box/photograph/photograph.h"
 #include "emulator/box/stage/box_executor.h"
 #include "emulator/box/stage/permission.h"
+#include "emulator/box/stage/rig.h"
 #include "emulator/box/wire/port_name.h"
 #include "emulator/command_line/commands.h"
 #include "emulator/command_line/interruption.h"
 #include "emulator/device/register_map/hazards.h"
 #include "emulator/play/executors/executor.h"
+#include "emulator/play/executors/real_executor.h"
 #include "emulator/play/scenario/scenario.h"
 
 namespace understudy::emulator::command_line {
@@ -119,14 +121,20 @@ void require_lines_of_benches(const OnArguments& arguments, const std::set<std::
   }
 }
 
-OnBox::OnBox(const OnArguments& arguments, bool puts_back)
+OnBox::OnBox(const OnArguments& arguments)
     : settings_(settings_of(arguments)), lines_(ports_of(arguments), timeout_of(arguments)) {
   of_rehearsals_ = settings_;
   of_rehearsals_.rehearses = true;
   of_rehearsals_.only_plans = false;
   of_rehearsals_.say = {};
-  settings_.puts_back = puts_back && !arguments.plan;
+  settings_.on_rig_failure = [this] { has_rig_failed_ = true; };
   if (!arguments.plan) watch_for_interruption_of_machine();
+}
+
+void OnBox::have_bare_controller(const std::string& name) {
+  settings_.is_bare = !settings_.only_plans;
+  of_rehearsals_.is_bare = true;
+  settings_.rig_name = of_rehearsals_.rig_name = name;
 }
 
 std::unique_ptr<play::Executor> OnBox::make(const play::Scenario& scenario) {
@@ -135,6 +143,19 @@ std::unique_ptr<play::Executor> OnBox::make(const play::Scenario& scenario) {
   } catch (const box::BoxError& error) {
     throw box::WireError(error.what());
   }
+}
+
+bool OnBox::revive(const std::string& device) {
+  if (!has_rig()) return false;
+  const auto check = [] {
+    if (is_interrupted()) throw play::ExecutionAborted();
+  };
+  box::run_command(settings_.rig, {"factory", device}, check);
+  box::run_command(settings_.rig, {"power", device, "cycle"}, check);
+  constexpr int kTries = 10;  // it may take seconds to start
+  for (int i = 0; i < kTries; ++i)
+    if (lines_.are_answering()) return true;
+  return false;
 }
 
 std::unique_ptr<play::Executor> OnBox::rehearse(const play::Scenario& scenario) {

@@ -30,7 +30,9 @@ class CountingBox {
   /// Returns what a register holds when it is read again after `times` reads.
   using Tell = std::function<int(int address, int times)>;
 
-  explicit CountingBox(Tell tell = {}) : tell_(std::move(tell)), master_(::posix_openpt(O_RDWR | O_NOCTTY)) {
+  /// `is_dead` is asked before each reply; if it returns true, there is none.
+  explicit CountingBox(Tell tell = {}, std::function<bool()> is_dead = {})
+      : tell_(std::move(tell)), is_dead_(std::move(is_dead)), master_(::posix_openpt(O_RDWR | O_NOCTTY)) {
     ::grantpt(master_.get());
     ::unlockpt(master_.get());
     path_ = ::ptsname(master_.get());
@@ -103,7 +105,8 @@ class CountingBox {
       if (::read(master_.get(), &byte, 1) != 1) return;
       received.push_back(byte);
       if (received.size() < size_of(received)) continue;
-      const Frame reply = answer(received);
+      const bool is_dead = is_dead_ && is_dead_();
+      const Frame reply = is_dead ? Frame() : answer(received);
       {
         const std::lock_guard lock(mutex_);
         heard_.push_back(received);
@@ -114,6 +117,7 @@ class CountingBox {
   }
 
   Tell tell_;
+  std::function<bool()> is_dead_;
   std::map<int, int> times_read_;
   Descriptor master_;
   Descriptor slave_;

@@ -360,47 +360,5 @@ TEST(RunOn, RefusesFlagsThatNeedTruths) {
   EXPECT_TRUE(has(on.errors, "--lint: needs the internal state of a simulated controller")) << on.errors;
 }
 
-TEST(Probe, MeasuresAnOptionByReads) {
-  const PrivateFolder folder;
-  const auto served = RunningUnderstudy::of_bench(
-      "understudy: 1\nlines:\n  line:\n    link: port\n    stations:\n"
-      "      - { name: hidden, model: simple2-r3, choices: { version_encoding: bcd } }\n");
-  const Finished probed =
-      understudy({"probe", served->port(), "--model", "simple2-r3", "-o", folder / "evidence.json"});
-  EXPECT_EQ(probed.exit_code, 0) << probed.output << probed.errors;
-  EXPECT_TRUE(
-      has(probed.output, "measured     box.version_encoding: bcd  (the model's default is different)"))
-      << probed.output;
-  const Finished described = understudy(
-      {"describe", "simple2-r3", "choices", "--evidence", folder / "evidence.json", "--format", "csv"});
-  EXPECT_TRUE(has(described.output, ",bcd,")) << described.output << described.errors;
-}
-
-TEST(Probe, DecidesNothingIfAControllerChangesItsMind) {
-  constexpr int kVersion = 2;
-  // One read for the option that passes, and two for the one that fails, since a failure is read again.
-  constexpr int kReadsOfAllCases = 3;
-  const PrivateFolder folder;
-  const std::string proofs = folder / "proofs";
-  std::filesystem::create_directories(proofs + "/simple2-r3");
-  folder.write(
-      "proofs/simple2-r3/version.yaml",
-      "understudy: 1\nbench:\n  lines: { line: { stations: [ { name: d, model: simple2-r3 } ] } }\n"
-      "plays:\n  - choice: { version_encoding: { hundredths: { version: 152 }, bcd: { version: 338 } } }\n"
-      "    steps:\n      - expect: { d.Version: \"${version}\" }\n");
-  for (const bool changes : {false, true}) {
-    const CountingBox box([&](int address, int times) {
-      if (address != kVersion) return 0;
-      return changes && times >= kReadsOfAllCases ? 338 : 152;
-    });
-    const Finished probed = understudy({"probe", box.path(), "--model", "simple2-r3", "--proofs", proofs});
-    EXPECT_EQ(probed.exit_code, 0) << probed.output << probed.errors;
-    EXPECT_TRUE(has(probed.output, changes ? "undecided    box.version_encoding: hundredths or bcd"
-                                           : "measured     box.version_encoding: hundredths"))
-        << probed.output;
-    EXPECT_EQ(box.writes(), 0);
-  }
-}
-
 }  // namespace on_test
 }  // namespace understudy::acceptance

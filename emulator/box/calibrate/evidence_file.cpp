@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <map>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -126,6 +127,7 @@ std::string evidence_text(const EvidenceFile& evidence) {
     add(written, "capture", row.capture);
     if (!row.capture.empty()) written["place"] = row.place;
     add(written, "proof", row.proof);
+    add(written, "why_not", one_line(row.why_not));
     for (const auto& [option, why] : row.seen) written["seen"][option] = one_line(why);
     file["choices"].push_back(std::move(written));
   }
@@ -149,7 +151,13 @@ std::string evidence_table(const EvidenceFile& evidence, std::string_view remark
     counts += (counts.empty() ? "" : ", ") + std::to_string(count) + " " + std::string(state);
   }
   std::ranges::replace(counts, '_', ' ');
-  return text + counts + "\n";
+  text += counts + "\n";
+  std::map<std::string, int> reasons;
+  for (const EvidenceRow& row : evidence.rows)
+    if (!row.why_not.empty()) ++reasons[one_line(row.why_not)];
+  for (const auto& [why, count] : reasons)
+    text += "  " + std::to_string(count) + " not exercised: " + why + "\n";
+  return text;
 }
 
 }  // namespace understudy::emulator::box

@@ -40,7 +40,8 @@ struct EvidenceRow {
   std::string expected{};            // the option of the bench, or the model's default
   std::string capture{};             // which contradicts the others; empty: none
   std::size_t place = 0;
-  std::string proof{};  // the scenario that tells the options apart; empty: a capture does
+  std::string proof{};    // the scenario that tells the options apart; empty: a capture does
+  std::string why_not{};  // why it was not exercised, after its name: "needs a machine"
   std::map<std::string, std::string> seen{};  // by option: why the controller does not have it
 
   std::string label() const { return device + "." + choice; }

@@ -1,6 +1,7 @@
 #include "emulator/box/stage/box_executor.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -8,6 +9,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -25,6 +27,8 @@
 #include "emulator/play/executors/real_executor.h"
 #include "emulator/play/scenario/scenario.h"
 #include "emulator/serve/loop/event_loop.h"
+#include "emulator/world/expression/number.h"
+#include "emulator/world/probe/probes.h"
 #include "emulator/world/protocol/modbus_words.h"
 #include "emulator/world/world.h"
 
@@ -42,6 +46,14 @@ std::string deed_text(const std::vector<std::string>& words) {
   std::string text;
   for (const std::string& word : words) text += (text.empty() ? "" : " ") + word;
   return text;
+}
+
+/// Returns true for what a rig counts from a beginning of its own, not from the scenario's.
+bool counts_from_beginning(std::string_view name) {
+  constexpr std::array<std::string_view, 12> kCounts{
+      "pulses",   "target",  "position",   "lost",     "encoder",   "greatest_speed",
+      "requests", "replies", "exceptions", "bytes_in", "bytes_out", "greatest_acceleration"};
+  return std::ranges::find(kCounts, name.substr(name.rfind('.') + 1)) != kCounts.end();
 }
 
 bool is_write_frame(const Bytes& frame) { return frame.size() > 1 && world::is_write(frame); }
@@ -222,7 +234,7 @@ play::HostReply BoxExecutor::ask(std::size_t line, const Bytes& request) {
   with_world([&](world::World& world) { sent = judge_frame(world, line, request); });
   const Hazards hazards = require(line, sent);
   note(line, "->", sent.what);
-  if (settings_.puts_back && hazards != Hazards::reads) keep_before(line, request);
+  if (settings_.is_bare && !is_rehearsal() && hazards != Hazards::reads) keep_before(line, request);
   const SimTime begin = now();
   Bytes reply;
   if (is_rehearsal()) {
@@ -310,6 +322,7 @@ std::vector<std::string> BoxExecutor::exchange_text(std::size_t line, const std:
 /// A last word "optional" marks what need not be done: only a rig is asked for it.
 std::optional<std::string> BoxExecutor::act(const std::vector<std::string>& all) {
   std::vector<std::string> words = all;
+  for (std::string& word : words) word = named_for_rig(word);
   const bool is_optional = words.back() == "optional";
   if (is_optional) words.pop_back();
   throw_if_interrupted();
@@ -320,9 +333,11 @@ std::optional<std::string> BoxExecutor::act(const std::vector<std::string>& all)
     }
     if (!settings_.rig.empty() || settings_.asks) return std::nullopt;
   }
+  if (settings_.is_bare && !settings_.rig.empty()) keep_before(all);
   if (!settings_.rig.empty()) {
     const CommandAnswer answer = run_command(settings_.rig, words, [this] { throw_if_interrupted(); });
     if (answer.exit_code == 0) return done(words);
+    if (answer.exit_code != kRigCannot && settings_.on_rig_failure) settings_.on_rig_failure();
     if (answer.exit_code != kRigCannot)
       throw play::RigFailed("the rig failed at `" + deed_text(words) + "` with exit code " +
                             std::to_string(answer.exit_code) + "; expected 0, or 3 for what it cannot do");
@@ -330,7 +345,10 @@ std::optional<std::string> BoxExecutor::act(const std::vector<std::string>& all)
   }
   if (is_optional) return "it is optional";
   if (settings_.asks) {
-    if (ask_person(words, [this] { throw_if_interrupted(); })) return done(words);
+    if (ask_person(words, [this] { throw_if_interrupted(); })) {
+      if (settings_.is_bare) keep_before(all);
+      return done(words);
+    }
     return "nobody did it: " + deed_text(words);
   }
   return "`" + deed_text(words) + "` needs a rig or a person; expected --rig COMMAND or --ask";
@@ -352,16 +370,35 @@ void BoxExecutor::plan_deed(const std::vector<std::string>& words, bool is_optio
 std::optional<std::string> BoxExecutor::done(const std::vector<std::string>& words) {
   const bool was_switched = words.size() > 2 && words[0] == "power" && words[2] != "off";
   for (std::size_t i = 0; was_switched && i < scenario_.bench.devices.size(); ++i)
-    if (scenario_.bench.devices[i].settings.name == words[1]) ask_word_order(i);
+    if (named_for_rig(scenario_.bench.devices[i].settings.name) == words[1]) ask_word_order(i);
   return std::nullopt;
 }
 
 std::optional<std::string> BoxExecutor::tell(const std::string& name) {
-  if (settings_.rig.empty() || is_rehearsal()) return std::nullopt;
+  if (settings_.rig.empty() || settings_.only_plans) return std::nullopt;
+  if (settings_.is_bare && counts_from_beginning(name)) return std::nullopt;
+  if (is_rehearsal()) return value_in_rehearsal(name);
   const CommandAnswer answer =
-      run_command(settings_.rig, {"value", name}, [this] { throw_if_interrupted(); });
+      run_command(settings_.rig, {"value", named_for_rig(name)}, [this] { throw_if_interrupted(); });
   if (answer.exit_code != 0) return std::nullopt;
   return answer.output;
+}
+
+std::string BoxExecutor::value_in_rehearsal(const std::string& name) {
+  std::string text;
+  with_world([&](world::World& world) {
+    const world::Probes probes(world);
+    text = world::number_text(probes.value(probes.resolve(name).handle));
+  });
+  return text;
+}
+
+/// A rig knows the one controller by one name, whatever the proofs call it.
+std::string BoxExecutor::named_for_rig(const std::string& word) const {
+  const std::string& name = scenario_.bench.devices.front().settings.name;
+  if (settings_.rig_name.empty()) return word;
+  if (word == name) return settings_.rig_name;
+  return word.starts_with(name + ".") ? settings_.rig_name + word.substr(name.size()) : word;
 }
 
 }  // namespace understudy::emulator::box

@@ -32,10 +32,12 @@ struct StageSettings {
   bool asks = false;
   bool rehearses = false;   // the world answers: nothing is sent
   bool only_plans = false;  // this too, and requests are listed instead of judged
-  bool puts_back = false;   // at the end, registers get the values that they had before
+  bool is_bare = false;     // what a scenario changes is put back at its end, and inputs are made before
+  std::string rig_name{};   // what the rig calls the device; empty: as the bench does
   /// Receives a line for the user: a stop that was sent, or a request of a plan.
   std::function<void(const std::string&)> say{};
   std::function<bool()> is_interrupted{};
+  std::function<void()> on_rig_failure{};
 };
 
 class BoxExecutor final : public play::Executor, public play::RealBox {
@@ -72,6 +74,7 @@ class BoxExecutor final : public play::Executor, public play::RealBox {
   std::vector<std::string> last_frames() const override { return {frames_.begin(), frames_.end()}; }
   bool is_rehearsal() const override { return settings_.rehearses || settings_.only_plans; }
   bool only_plans() const override { return settings_.only_plans; }
+  bool is_bare() const override { return settings_.is_bare; }
   void stop() override;
 
  private:
@@ -85,11 +88,16 @@ class BoxExecutor final : public play::Executor, public play::RealBox {
   void plan(const SentRequest& request, std::size_t line);
   void plan_deed(const std::vector<std::string>& words, bool is_optional);
   std::optional<std::string> done(const std::vector<std::string>& words);
+  std::string named_for_rig(const std::string& word) const;
+  std::string value_in_rehearsal(const std::string& name);
+  void keep_before(const std::vector<std::string>& words);
   /// Returns the real line of a device, or nothing.
   std::optional<std::size_t> line_of(std::size_t device) const;
   void ask_word_order(std::size_t device);
   void keep_before(std::size_t line, const Bytes& request);
   void put_back();
+  void put_back_surroundings();
+  void put_back_registers();
   void stop_device(std::size_t device);
   std::string send_stop(std::size_t device, std::size_t line, const StopStep& step);
   void throw_if_interrupted() const;
@@ -117,6 +125,8 @@ class BoxExecutor final : public play::Executor, public play::RealBox {
     std::vector<std::uint16_t> words{};
   };
   std::vector<Before> before_;
+  /// What a rig has done, by what undoes it, the oldest first: {"input", "box.DIN_2", "off"}.
+  std::vector<std::vector<std::string>> undoing_;
   bool is_stopping_ = false;
 };
 

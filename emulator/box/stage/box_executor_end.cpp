@@ -25,6 +25,8 @@
 #include "emulator/play/scenario/requests.h"
 #include "emulator/play/scenario/scenario.h"
 #include "emulator/world/bench/bench.h"
+#include "emulator/world/names/level.h"
+#include "emulator/world/names/names.h"
 #include "emulator/world/world.h"
 
 namespace understudy::emulator::box {
@@ -74,9 +76,49 @@ void BoxExecutor::keep_before(std::size_t line, const Bytes& request) {
   }
 }
 
-/// In the opposite order. What was allowed to be written is allowed to be put back.
+/// Notes how to undo what a rig is about to do. Hand wheels and programs stay as they are.
+void BoxExecutor::keep_before(const std::vector<std::string>& words) {
+  const auto note = [&](const std::vector<std::string>& undo) {
+    if (std::ranges::find(undoing_, undo) == undoing_.end()) undoing_.push_back(undo);
+  };
+  if (words[0] == "power" && words[2] == "off") note({"power", words[1], "on"});
+  if (words[0] == "inject") note({"clear", words.back().substr(words.back().find('=') + 1)});
+  if (words[0] != "input") return;
+  with_world([&](world::World& world) {
+    const world::InputName input = world::find_input(world.known(), words[1]);
+    const TerminalRow& row = input.row(world.known());
+    // Nothing is connected to the inputs of a bare controller, and its switches are off.
+    note({"input", words[1], world::level_text(row, 0)});
+    // Switches are often read at power-up alone.
+    if (row.kind == TerminalRow::Kind::dip_switch)
+      note({"power", scenario_.bench.devices[input.device].settings.name, "cycle"});
+  });
+}
+
 void BoxExecutor::put_back() {
   is_stopping_ = true;
+  put_back_surroundings();
+  put_back_registers();
+  is_stopping_ = false;
+}
+
+void BoxExecutor::put_back_surroundings() {
+  // Switches come before the power, so the last word is that of a power cycle.
+  std::ranges::stable_partition(undoing_, [](const auto& words) { return words[0] != "power"; });
+  for (const std::vector<std::string>& words : std::exchange(undoing_, {})) {
+    std::string why;
+    try {
+      why = act(words).value_or("");
+    } catch (const std::exception& error) {
+      why = error.what();
+    }
+    if (!why.empty() && settings_.say) settings_.say("not put back: " + one_line(why));
+  }
+  undoing_.clear();
+}
+
+/// In the opposite order. What was allowed to be written is allowed to be put back.
+void BoxExecutor::put_back_registers() {
   for (auto one = before_.rbegin(); one != before_.rend(); ++one) {
     try {
       host(one->line).ask(play::write_request(one->station, one->table, one->first, one->words), WallTime{0});
@@ -86,7 +128,6 @@ void BoxExecutor::put_back() {
     }
   }
   before_.clear();
-  is_stopping_ = false;
 }
 
 // --- the stop ------------------------------------------------------------------------------------

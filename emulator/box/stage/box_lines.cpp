@@ -36,30 +36,37 @@ constexpr int kLongestRtuFrame = 270;
 }  // namespace
 
 LineHost::LineHost(const PortName& port, const Model& model, int station, WallTime timeout)
-    : port_(port), wire_(open_wire(port)), timeout_(timeout) {
+    : port_(port), model_(model), station_(station), wire_(open_wire(port)), timeout_(timeout) {
   require_rtu(model, port);
-  find_settings(model, station);
+  find_settings();
 }
 
-void LineHost::find_settings(const Model& model, int station) {
-  const std::vector<pty::LineSettings> tried = settings_to_try(model, port_);
+void LineHost::find_settings() {
+  const std::vector<pty::LineSettings> tried = settings_to_try(model_, port_);
   bool is_noisy = false;
   int other_station = -1;
   for (const pty::LineSettings& line : tried) {
     wire_->set_line(line);
     settings_ = line;
     for (int i = 0; i < 2; ++i)
-      if (answers(model, station, is_noisy, other_station)) return;
+      if (answers(is_noisy, other_station)) return;
   }
-  const std::string who = model.rtu ? "station " + std::to_string(station) : "the controller";
+  const std::string who = model_.rtu ? "station " + std::to_string(station_) : "the controller";
   if (other_station >= 0)
     throw BoxError(one_line(port_.place) + ": station " + std::to_string(other_station) +
                    " answered a request to " + who + "; expected a line with one controller of each number");
   throw BoxError(silence_text(port_, who, tried, is_noisy, false));
 }
 
-bool LineHost::answers(const Model& model, int station, bool& is_noisy, int& other_station) {
-  if (!model.rtu) {
+bool LineHost::is_answering() {
+  bool is_noisy = false;
+  int other_station = -1;
+  settle();
+  return answers(is_noisy, other_station) || answers(is_noisy, other_station);
+}
+
+bool LineHost::answers(bool& is_noisy, int& other_station) {
+  if (!model_.rtu) {
     TextAsker asker(*wire_, timeout_ + settings_.duration_of(100));
     const TextReply reply = asker.ask("?VER", kAnswerPause);
     is_noisy = is_noisy || !reply.asked.reply.empty();
@@ -67,7 +74,7 @@ bool LineHost::answers(const Model& model, int station, bool& is_noisy, int& oth
            std::ranges::all_of(reply.lines.front(), [](char c) { return c >= ' ' && c <= '~'; });
   }
   const WallTime of_line = port_.has_settings() ? settings_.duration_of(kLongestRtuFrame) : WallTime{0};
-  const ModbusExchange::Settings of_exchange{.station = station,
+  const ModbusExchange::Settings of_exchange{.station = station_,
                                              .timeout = timeout_ + of_line,
                                              .silence = play::silence_between_frames(settings_),
                                              .is_tcp = port_.is_modbus_tcp(),
@@ -75,7 +82,7 @@ bool LineHost::answers(const Model& model, int station, bool& is_noisy, int& oth
                                                if (heartbeat_) heartbeat_();
                                              }};
   exchange_.emplace(*wire_, of_exchange);
-  const ReadBlock block = read_plan(model).front();
+  const ReadBlock block = read_plan(model_).front();
   const ReadCell& first = block.cells.front();
   ModbusMaster master(*wire_, of_exchange);
   const ReadReply read = master.read(block.table, first.address, first.size);
@@ -193,6 +200,10 @@ std::vector<std::string> LineHost::exchange_text(const std::optional<std::string
   }
   if (!received.lines.empty()) quiet_since_ = serve::wall_now();
   return received.lines;
+}
+
+bool BoxLines::are_answering() {
+  return std::ranges::all_of(hosts_, [](const auto& host) { return host.second->is_answering(); });
 }
 
 LineHost& BoxLines::host(const std::string& line, const Model& model, int station) {

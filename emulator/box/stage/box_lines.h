@@ -36,18 +36,22 @@ class LineHost {
                                          const world::LinesWanted& wanted, WallTime within, WallTime gap);
 
   const pty::LineSettings& settings() const { return settings_; }
+  /// Asks for something that every controller of the model has, twice.
+  bool is_answering();
   /// Called again and again while it waits; may throw.
   void set_heartbeat(std::function<void()> heartbeat) { heartbeat_ = std::move(heartbeat); }
 
  private:
-  void find_settings(const Model& model, int station);
-  bool answers(const Model& model, int station, bool& is_noisy, int& other_station);
+  void find_settings();
+  bool answers(bool& is_noisy, int& other_station);
   void receive_until(Bytes& bytes, WallTime until);
   bool receive_rest(Bytes& bytes);
   void settle();
   void wait(WallTime gap);
 
   PortName port_;
+  const Model& model_;
+  int station_;
   std::unique_ptr<Wire> wire_;
   WallTime timeout_;
   pty::LineSettings settings_;
@@ -70,6 +74,8 @@ class BoxLines {
   bool has(const std::string& line) const { return ports_.contains(line) || ports_.contains(kAnyLine); }
   /// Opens the port when it is used for the first time. Throws BoxError and WireError.
   LineHost& host(const std::string& line, const Model& model, int station);
+  /// Returns true if something answers on every line that was opened.
+  bool are_answering();
 
  private:
   std::map<std::string, PortName> ports_;

@@ -57,6 +57,9 @@ class RealBox {
   virtual bool is_rehearsal() const = 0;
   /// Returns true if requests are only listed, and nothing is checked.
   virtual bool only_plans() const = 0;
+  /// Returns true if the controller is as it came from the factory, so inputs and programs of the bench are
+  /// made first. Otherwise, the bench describes how the controller is set up.
+  virtual bool is_bare() const = 0;
 
   /// Stops everything, provided that the user has allowed anything that may cause motion.
   virtual void stop() = 0;

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/files/file_error.h"
+#include "base/files/passing_file.h"
 #include "base/simulated_time.h"
 #include "emulator/device/program_error.h"
 #include "emulator/play/executors/executor.h"
@@ -23,6 +24,7 @@
 #include "emulator/world/expression/expression.h"
 #include "emulator/world/expression/number.h"
 #include "emulator/world/expression/tokens.h"
+#include "emulator/world/names/level.h"
 #include "emulator/world/names/names.h"
 #include "emulator/world/world.h"
 
@@ -57,11 +59,7 @@ struct StepOnBox {
   void operator()(const ResetPeaksStep&) const {}
 
   void operator()(const InputStep& what) const {
-    const world::KnownDevices& known = on_box.performance_.world_observers_->world.known();
-    for (const world::InputSetup& input : what.inputs) {
-      const KnownTerminal terminal = terminal_of(known, input.device, input.terminal);
-      on_box.act({"input", terminal.name, level_text(*terminal.row, input.level)});
-    }
+    for (const world::InputSetup& input : what.inputs) on_box.act(on_box.words_of_input(input));
     rehearse(what);
   }
   void operator()(const TurnStep& what) const {
@@ -86,8 +84,8 @@ struct StepOnBox {
     rehearse(what);
   }
   void operator()(const ProgramStep& what) const {
-    if (what.file.empty()) throw OnBox::Skip("the rig can load a program only from a file", true);
-    on_box.act({"program", on_box.device_name(what.device), what.file});
+    if (what.refused) throw OnBox::Skip("whether a program is refused cannot be observed", true);
+    on_box.load(what.device, what.file, what.text);
     rehearse(what);
   }
 
@@ -107,18 +105,6 @@ struct StepOnBox {
     if (on_box.box_.is_rehearsal()) on_box.performance_.perform(what);
   }
 
-  struct KnownTerminal {
-    std::string name;
-    const TerminalRow* row;
-  };
-  static KnownTerminal terminal_of(const world::KnownDevices& known, std::size_t device, int terminal) {
-    const TerminalRow& row = known[device].model->terminals[static_cast<std::size_t>(terminal)];
-    return {known[device].name + "." + std::string(row.name), &row};
-  }
-  static std::string level_text(const TerminalRow& row, std::int32_t level) {
-    if (has_two_levels(row.kind)) return level != 0 ? "on" : "off";
-    return std::to_string(level) + (is_in_millivolts(row.kind) ? "mV" : "");
-  }
   std::vector<std::string> words_of_fault(const std::string& verb, const world::Fault& fault) const {
     const world::FaultText text =
         world::fault_text(on_box.performance_.world_observers_->world.known(), fault);
@@ -355,6 +341,16 @@ void Performance::OnBox::act(const std::vector<std::string>& words) {
   due_ = performance_.executor_->now();
 }
 
+/// A rig loads files, so a program that the scenario contains becomes one while it is loaded.
+void Performance::OnBox::load(std::size_t device, const std::string& file, const std::string& text) {
+  if (!file.empty() || box_.is_rehearsal()) {
+    act({"program", device_name(device), file.empty() ? "a program of the scenario" : file});
+    return;
+  }
+  const PassingFile passing("understudy-program", text);
+  act({"program", device_name(device), passing.path()});
+}
+
 std::optional<Failure> Performance::OnBox::begin() {
   return attempt(nullptr, [&] {
     for (std::size_t device = 0; device < performance_.bench_.devices.size(); ++device) set_up(device);
@@ -369,6 +365,10 @@ void Performance::OnBox::set_up(std::size_t device) {
   const Firmware firmware = settings.firmware != 0 ? settings.firmware : model.firmwares.back();
   if (performance_.lines_[device].empty()) return;
   if (box_.why_unreachable(performance_.lines_[device].front())) return;
+  if (box_.is_bare()) {
+    box_.act({"factory", settings.name, "optional"});
+    set_up_surroundings(device);
+  }
   box_.act({"power", settings.name, "cycle", "optional"});
   for (const auto& [name, value] : settings.set) {
     const std::string full = settings.name + "." + name;
@@ -387,6 +387,22 @@ void Performance::OnBox::set_up(std::size_t device) {
     performance_.executor_->send_text(performance_.lines_[device].front(),
                                       name + "=" + world::number_text(wanted));
   }
+}
+
+/// Switches and inputs come before power-up, as on the bench.
+void Performance::OnBox::set_up_surroundings(std::size_t device) {
+  const DeviceSettings& settings = performance_.bench_.devices[device].settings;
+  for (const auto& [name, is_on] : settings.dip)
+    act({"input", settings.name + "." + name, is_on ? "on" : "off"});
+  for (const world::InputSetup& input : performance_.bench_.inputs)
+    if (input.device == device) act(words_of_input(input));
+  if (!settings.program.empty()) load(device, settings.program_name, settings.program);
+}
+
+std::vector<std::string> Performance::OnBox::words_of_input(const world::InputSetup& input) const {
+  const world::KnownDevice& known = performance_.world_observers_->world.known()[input.device];
+  const TerminalRow& row = known.model->terminals[static_cast<std::size_t>(input.terminal)];
+  return {"input", known.name + "." + std::string(row.name), world::level_text(row, input.level)};
 }
 
 }  // namespace understudy::emulator::play

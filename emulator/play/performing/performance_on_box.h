@@ -59,9 +59,12 @@ class Performance::OnBox {
   void open(const Step& at, const SpanStep& step);
   void check_spans();
   void act(const std::vector<std::string>& words);
+  void load(std::size_t device, const std::string& file, const std::string& text);
   void require_reachable(std::size_t line);
   void require_reachable(std::size_t device, const Via& via);
   void set_up(std::size_t device);
+  void set_up_surroundings(std::size_t device);
+  std::vector<std::string> words_of_input(const world::InputSetup& input) const;
   std::string device_name(std::size_t device) const;
   void let_time_pass(SimTime by);
 

@@ -1,7 +1,9 @@
 #include "emulator/world/names/level.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "base/text/parse_integer.h"
@@ -41,6 +43,11 @@ std::optional<std::int64_t> parse_level(std::string_view text, TerminalRow::Kind
   if (text == "on" || text == "true") return 1;
   if (text == "off" || text == "false") return 0;
   return parse_integer(text);
+}
+
+std::string level_text(const TerminalRow& row, std::int64_t level) {
+  if (has_two_levels(row.kind)) return level != 0 ? "on" : "off";
+  return std::to_string(level) + (is_in_millivolts(row.kind) ? "mV" : "");
 }
 
 std::string_view level_example(TerminalRow::Kind kind) {
