@@ -116,7 +116,8 @@ std::optional<Ending> rehearsed_ending(play::Scenario scenario, OnBox& stage, st
 }  // namespace
 
 bool are_alike(const Ending& a, const Ending& b) {
-  return a.failed_step == b.failed_step && (a.came.empty() || b.came.empty() || a.came == b.came);
+  // A rehearsal receives as many bytes of a reply as are expected, and a real line all of them.
+  return a.failed_step == b.failed_step && (a.came.starts_with(b.came) || b.came.starts_with(a.came));
 }
 
 CaseEnd end_of(const play::ScenarioResult& result) {
