@@ -126,7 +126,7 @@ void summarize(const box::Photograph& photo, const std::string& image, const std
 /// Writes the photograph without an image, which would say that everything else has its factory value.
 int keep_part(const box::Photograph& photo, const std::string& file) {
   std::fprintf(stderr, "understudy: photograph: %s\n", one_line(photo.ended).c_str());
-  ResultFile("--output", file, ContentKind::photograph).write(box::photo_json(photo));
+  ResultFile("--output", file, ContentKind::photograph).replace(box::photo_json(photo));
   std::printf(
       "wrote %s: the %zu values that were read, in %zu requests; no image, because others are missing\n",
       file.c_str(), photo.values.size(), photo.exchanges.size());
@@ -150,8 +150,8 @@ int take_photograph(ModelList models, const PhotographArguments& arguments) {
   try {
     const box::Photograph photo = photograph_with_progress(model, port, settings);
     if (!photo.ended.empty()) return keep_part(photo, photo_path);
-    ResultFile("--output", arguments.output, ContentKind::nv_image).write(to_json(photo.image));
-    ResultFile("--output", photo_path, ContentKind::photograph).write(box::photo_json(photo));
+    ResultFile("--output", arguments.output, ContentKind::nv_image).replace(to_json(photo.image));
+    ResultFile("--output", photo_path, ContentKind::photograph).replace(box::photo_json(photo));
     summarize(photo, arguments.output, photo_path);
   } catch (const box::BoxError& error) {
     std::fprintf(stderr, "understudy: photograph: %s\n", error.what());
