@@ -23,7 +23,7 @@ std::string text_of(std::span<const Strike> strikes) {
 std::string comment_of(const CapturedPacket& packet) {
   const bool has_no_crc = packet.is_text && packet.remark == Remark::wrong_checksum;
   std::string text(has_no_crc ? "dropped: bad LRC" : text_of(packet.remark));
-  for (const std::string_view more : {packet.faults, packet.command}) {
+  for (const std::string_view more : {packet.faults, packet.why, packet.command}) {
     if (!text.empty() && !more.empty()) text += "; ";
     text += more;
   }

@@ -55,6 +55,7 @@ struct CapturedPacket {
   bool is_text = false;  // part of a line of text, not a Modbus frame
   // Effects of faults. Without bytes, they concern a message that was dropped or captured before.
   std::string_view faults{};
+  std::string_view why{};      // of a reply: why the request had no effect or was refused
   std::string_view command{};  // the meaning of a command, if it has a name: "mill: MOVE X 1000"
   // The number of a request's last character; for a reply, that of its request. 0: unknown.
   std::uint64_t last_character = 0;
@@ -62,10 +63,11 @@ struct CapturedPacket {
 
 /// Returns a text such as "fault 1 drop: not sent; fault 2 delay: sent late".
 std::string text_of(std::span<const Strike> strikes);
-/// Returns the remark, faults and command of a packet as one text. It may be empty.
+/// Returns the remark, faults, reason and command of a packet as one text. It may be empty.
 std::string comment_of(const CapturedPacket& packet);
 constexpr bool has_comment(const CapturedPacket& packet) {
-  return packet.remark != Remark::none || !packet.faults.empty() || !packet.command.empty();
+  return packet.remark != Remark::none || !packet.faults.empty() || !packet.why.empty() ||
+         !packet.command.empty();
 }
 
 /// A line as a capture lists it.

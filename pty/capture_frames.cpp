@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -83,6 +84,7 @@ void CaptureFrames::on_transmission(const Transmission& transmission) {
   const Remark remark = transmission.has_collided  ? Remark::collided
                         : transmission.is_for_host ? Remark::none
                                                    : Remark::to_nobody;
+  const bool is_explained = !why_.empty() && why_of_ == transmission.last_character;
   sink_({.line = line_,
          .direction = Direction::to_host,
          .time = transmission.start,
@@ -90,8 +92,16 @@ void CaptureFrames::on_transmission(const Transmission& transmission) {
          .remark = remark,
          .is_text = is_text(),
          .faults = faults_,
+         .why = is_explained ? std::string_view(why_) : std::string_view(),
          .last_character = transmission.last_character});
   faults_.clear();
+  if (is_explained) why_.clear();
+}
+
+void CaptureFrames::on_served(const ServedRequest& request) {
+  if (request.why.empty()) return;
+  why_ = request.why;
+  why_of_ = request.last_character;
 }
 
 /// A text station sends its reply later and in pieces, so the strikes become a separate packet.

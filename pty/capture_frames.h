@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "pty/capture.h"
@@ -33,6 +34,7 @@ class CaptureFrames final : public LineObserver {
   void on_character(const TimedByte& character, bool is_received) override;
   void on_nothing_more() override;
   void on_transmission(const Transmission& transmission) override;
+  void on_served(const ServedRequest& request) override;
   void on_strike(const StruckMessage& message) override;
   std::optional<SimTime> due() const override { return framer_.due(); }  // none on other lines
   void run(SimTime now) override;
@@ -60,6 +62,8 @@ class CaptureFrames final : public LineObserver {
   bool is_received_ = true;         // whether they were received: the same for all of them
   std::string faults_;              // those of the next reply
   SimTime struck_at_{0};            // when the faults acted on that reply
+  std::string why_;                 // what a station said of the last request for which it had a reason
+  std::uint64_t why_of_ = 0;        // the number of that request's last character
 };
 
 }  // namespace understudy::pty

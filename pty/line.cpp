@@ -30,9 +30,9 @@ class Line::LineTransmitter final : public Transmitter {
     line_.transmit(member_, bytes, is_present, last_character);
   }
   void served(std::span<const std::uint8_t> request, std::span<const std::uint8_t> answer,
-              std::uint64_t last_character) override {
+              std::uint64_t last_character, std::string_view why) override {
     for (LineObserver* observer : line_.observers_) {
-      observer->on_served({member_, line_.state_.edge.clock, last_character, request, answer});
+      observer->on_served({member_, line_.state_.edge.clock, last_character, request, answer, why});
     }
   }
 

@@ -28,6 +28,7 @@ struct ServedRequest {
   std::uint64_t last_character = 0;  // of the request
   std::span<const std::uint8_t> request;
   std::span<const std::uint8_t> answer;  // without address and checksum, even if the station sends no answer
+  std::string_view why{};                // why it had no effect or was refused, as far as the station says so
 };
 
 /// A fault that acted on a message.

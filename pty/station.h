@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string_view>
 
 #include "pty/line_settings.h"
 
@@ -30,7 +31,7 @@ class Transmitter {
   virtual void answer(std::span<const std::uint8_t> bytes, std::uint64_t last_character) = 0;
   /// Reports to observers that the station has executed or refused that request (ServedRequest).
   virtual void served(std::span<const std::uint8_t> /*request*/, std::span<const std::uint8_t> /*answer*/,
-                      std::uint64_t /*last_character*/) {}
+                      std::uint64_t /*last_character*/, std::string_view /*why*/) {}
 
  protected:
   ~Transmitter() = default;

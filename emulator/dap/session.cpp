@@ -48,9 +48,10 @@ struct Filter {
   const char* label;
   const char* description;
 };
-constexpr std::array<Filter, 6> kFilters{
+constexpr std::array<Filter, 7> kFilters{
     {{"program-error", "A program fails", "A program stops because of an error"},
      {"exception", "A request is refused", "A device answers a host with a Modbus exception"},
+     {"ignored", "A command has no effect", "A device accepts a command but does not execute it"},
      {"dropped", "A frame is not received", "A frame is dropped, or a fault affects it"},
      {"fault", "A fault begins or ends", "An injected fault takes effect, or ends"},
      {"alarm", "A drive has an alarm", "The drive of an axis reports its alarm"},

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string_view>
 
 #include "emulator/device/model.h"
 #include "pty/receive_error.h"  // IWYU pragma: export: receive_failed() uses it
@@ -15,6 +16,8 @@ inline constexpr Protocol kModbusRtu{"Modbus"};
 
 /// How a station reacts to the address in a frame.
 enum class Addressing : std::uint8_t { ignore, execute_silently, execute_and_reply };
+
+class Reasons;
 
 class ModbusStation {
  public:
@@ -28,8 +31,11 @@ class ModbusStation {
   /// Returns true if the device answers refused requests with an exception. Otherwise, it does not answer
   /// them.
   virtual bool answers_refusals() const { return true; }
-  /// Called when characters at that port did not form a frame, while the device has power. They are not
-  /// answered.
+  /// Returns where the device says why commands had no effect, or null if it does not.
+  virtual Reasons* reasons() { return nullptr; }
+  /// Returns what the device's own number for the reason of a refusal means, or an empty text.
+  virtual std::string_view meaning_of_reason(int /*reason*/) const { return {}; }
+  /// Called when characters at that port were not a frame, while the device has power. They get no answer.
   virtual void receive_failed(std::size_t /*port*/, pty::ReceiveError /*error*/) {}
 
  protected:

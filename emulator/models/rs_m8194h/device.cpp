@@ -19,6 +19,7 @@
 #include "emulator/models/rs_m8194h/rows/options.h"
 #include "emulator/models/rs_m8194h/state.h"
 #include "emulator/models/rs_m8194h/state_fields.h"
+#include "interpreter/rs_m8194h/faults.h"
 
 namespace understudy::emulator::models::rs_m8194h {
 
@@ -41,6 +42,18 @@ RsM8194h::RsM8194h(const DeviceSettings& given)
       module_(ground_, state_),
       requests_(ground_, state_, module_),
       ports_(*this, module_) {}
+
+/// A number that several faults share has no meaning of its own; the tables say more about those.
+std::string_view RsM8194h::meaning_of_reason(int reason) const {
+  std::string_view meaning;
+  const bool is_other = chose(option("illegal_reason_numbers", "of_12_1_12"));
+  for (const interpreter::rs_m8194h::FaultRow& row : interpreter::rs_m8194h::kFaults) {
+    if ((is_other ? row.reason_12_1_12 : row.reason_4_16_2) != reason) continue;
+    if (!meaning.empty()) return {};
+    meaning = row.meaning;
+  }
+  return meaning;
+}
 
 Addressing RsM8194h::addressing(std::uint8_t address) const {
   if (module_.status.is_deaf()) return Addressing::ignore;

@@ -60,6 +60,7 @@ class RsM8194h final : public StatefulDevice<RsM8194h, State>,
 
   // --- its line ----------------------------------------------------------------------------------
   Addressing addressing(std::uint8_t address) const override;
+  std::string_view meaning_of_reason(int reason) const override;
   pty::SimTime end_silence(pty::SimTime usual) const override;
   pty::SimTime reply_delay() const override;
   pty::LineSettings line_settings(std::size_t port) const override;

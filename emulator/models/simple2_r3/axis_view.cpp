@@ -31,11 +31,14 @@ bool AxisView::is_refused_as_too_fast(std::int64_t milli_rpm) const {
   return size * resolution() > kMaxPulseRate_pps * 60'000;
 }
 
-Outcome AxisView::reaction(Event event) const {
+Phase AxisView::phase_met(Event event) const {
   const bool needs_servo = has(transitions::kCommands, event) &&
                            !(has(transitions::kDuties, event) && chose(transitions::kPwmNeedsNoServo));
-  const bool is_held = needs_servo && lacks_servo();
-  const Phase phase = is_held ? Phase::servo_off : phase_of(state(), now());
+  return needs_servo && lacks_servo() ? Phase::servo_off : phase_of(state(), now());
+}
+
+Outcome AxisView::reaction(Event event) const {
+  const Phase phase = phase_met(event);
   note(phase, event);
   const Transition* row = reaction_row(activity(state()), phase, event);
   if (row == nullptr) return Outcome::continues;

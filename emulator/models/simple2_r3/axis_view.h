@@ -3,6 +3,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
 
 #include "base/simulated_time.h"
 #include "emulator/device/clear_travel.h"
@@ -59,7 +62,17 @@ class AxisView {
   bool is_refused_as_too_fast(std::int64_t milli_rpm) const;
   /// Returns the reaction of the axis to an event, in its present state and with the selected options.
   Outcome reaction(Event event) const;
-  /// Records that the event has occurred in the axis's present activity (device/decisions.h).
+  /// Returns the phase in which the axis meets the event.
+  Phase phase_met(Event event) const;
+  // Say why a command has no effect (axis_reasons.cpp): in its cell of the transitions, if `outcome` is one
+  // without effect; or for the reasons that come before them.
+  void tell(Event event, Outcome outcome) const;
+  void tell_not_ready(Event event) const;
+  void tell_too_fast(Event event) const;
+  void tell_no_home() const;
+  void tell_clears_already() const;
+  void tell_refused(Event event) const;
+  /// Notes that the axis, in its present activity, meets the event (device/decisions.h).
   void note(Phase phase, Event event) const;
   /// Returns `towards` if an active limit forbids this direction, otherwise `away`.
   Event event_by_direction(int direction, Event towards, Event away) const;
@@ -82,6 +95,10 @@ class AxisView {
   std::uint32_t resolution_in_velocity() const {
     return setup_.velocity_settings_latched ? state().velocity_resolution : resolution();
   }
+
+  void say(std::string_view effect, std::string_view why) const;
+  std::string phase_words(Phase phase) const;
+  std::optional<std::size_t> deciding_choice(const Transition& row) const;
 
   const State& view_;
   const Setup& setup_;

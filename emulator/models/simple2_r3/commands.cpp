@@ -51,8 +51,8 @@ void AxisCommands::start_move(Command command, const MoveParameters& move) {
   std::int64_t distance_pulses = move.distance_pulses;
   // At any speed, a distance of 0 stops at once (appendix A).
   if (distance_pulses != 0) {
-    if (lacks_ready()) return;
-    if (is_refused_as_too_fast(std::int64_t{1000} * move.speed_rpm)) return;
+    if (lacks_ready()) return tell_not_ready(Event::move_away);
+    if (is_refused_as_too_fast(std::int64_t{1000} * move.speed_rpm)) return tell_too_fast(Event::move_away);
     const bool counts_on =
         command == Command::incremental && chose(option("incremental_while_moving", "old_target"));
     if (counts_on) distance_pulses += remaining_pulses(axis);
@@ -63,6 +63,7 @@ void AxisCommands::start_move(Command command, const MoveParameters& move) {
                           ? Event::move_nowhere
                           : event_by_direction(direction, Event::move_towards, Event::move_away);
   const Outcome outcome = reaction(event);
+  tell(event, outcome);
   if (!may_begin(outcome, {.command = command, .move = move})) return;
   const double speed_pps = outcome == Outcome::changes ? speed_of_pulses() : 0;
   stop_drive(axis);
@@ -73,7 +74,7 @@ void AxisCommands::start_move(Command command, const MoveParameters& move) {
                                 : speed_pps != 0
                                     ? axis.motor.move_on(speed_pps, distance_pulses, law, now())
                                     : axis.motor.move(distance_pulses, law, setup().tick_before_motion());
-  if (refused != motion::Cause::none) return;
+  if (refused != motion::Cause::none) return tell_refused(event);
   // remaining_pulses() needs the whole distance.
   if (move.speed_rpm == 0) axis.motor.target_pulses = distance_pulses * direction;
   axis.command = command;
@@ -85,12 +86,14 @@ void AxisCommands::start_move(Command command, const MoveParameters& move) {
 void AxisCommands::go_home(bool by_trigger) {
   AxisState& axis = this->axis();
   const std::uint32_t speed_rpm = shared(slots().home_speed);
-  if (lacks_ready()) return;
-  if (is_refused_as_too_fast(std::int64_t{1000} * speed_rpm)) return;
-  if (chose(option("home_unassigned", "dropped")) && !signals().assigned(slots().home_assigned)) return;
+  if (lacks_ready()) return tell_not_ready(Event::home);
+  if (is_refused_as_too_fast(std::int64_t{1000} * speed_rpm)) return tell_too_fast(Event::home);
+  if (chose(option("home_unassigned", "dropped")) && !signals().assigned(slots().home_assigned))
+    return tell_no_home();
   refresh_signals();
-  if (!may_begin(reaction(Event::home), {.command = Command::homing, .move = {.by_trigger = by_trigger}}))
-    return;
+  const Outcome outcome = reaction(Event::home);
+  tell(Event::home, outcome);
+  if (!may_begin(outcome, {.command = Command::homing, .move = {.by_trigger = by_trigger}})) return;
   stop_drive(axis);
   axis.cut_short = false;
   axis.homed = false;
@@ -102,7 +105,7 @@ void AxisCommands::go_home(bool by_trigger) {
       axis.motor.home(chose(option("homing_sequence", "stops_at_first_edge")) ? homing_to_first_edge(how)
                                                                               : motion::simple2_homing(how),
                       setup().tick_before_motion());
-  if (refused != motion::Cause::none) return;
+  if (refused != motion::Cause::none) return tell_refused(Event::home);
   axis.command = Command::homing;
   axis.by_trigger = by_trigger;
 }
@@ -127,11 +130,13 @@ void AxisCommands::preset_coordinate(std::int32_t pulses) {
 void AxisCommands::run_velocity(std::int64_t milli_rpm) {
   AxisState& axis = this->axis();
   refresh_signals();
-  const bool is_refused = (milli_rpm != 0 && lacks_ready()) || is_refused_as_too_fast(milli_rpm);
+  const bool is_unready = milli_rpm != 0 && lacks_ready();
+  const bool is_refused = is_unready || is_refused_as_too_fast(milli_rpm);
   const Event event = milli_rpm == 0 ? Event::velocity_zero
                                      : event_by_direction(milli_rpm < 0 ? -1 : +1, Event::velocity_towards,
                                                           Event::velocity_away);
   const Outcome outcome = is_refused ? Outcome::dropped : reaction(event);
+  is_unready ? tell_not_ready(event) : is_refused ? tell_too_fast(event) : tell(event, outcome);
   if (replaces_kept(outcome)) forget_kept();
   switch (outcome) {
     case Outcome::begins:
@@ -170,9 +175,10 @@ void AxisCommands::show_pwm(std::uint8_t percent) {
 void AxisCommands::output_pwm(std::uint8_t percent) {
   AxisState& axis = this->axis();
   refresh_signals();
-  const Outcome outcome = percent != 0 && lacks_ready()
-                              ? Outcome::dropped
-                              : reaction(percent == 0 ? Event::pwm_zero : Event::pwm);
+  const Event event = percent == 0 ? Event::pwm_zero : Event::pwm;
+  const bool is_unready = percent != 0 && lacks_ready();
+  const Outcome outcome = is_unready ? Outcome::dropped : reaction(event);
+  is_unready ? tell_not_ready(event) : tell(event, outcome);
   if (outcome == Outcome::waits) {
     forget_kept();
     axis.pwm_percent = percent;
@@ -197,9 +203,11 @@ void AxisCommands::sync_changed() {
 }
 
 void AxisCommands::follow_encoder() {
-  if (lacks_ready()) return;
+  if (lacks_ready()) return tell_not_ready(Event::sync);
   refresh_signals();
-  if (!may_begin(reaction(Event::sync), {.mode = Mode::sync})) return;
+  const Outcome outcome = reaction(Event::sync);
+  tell(Event::sync, outcome);
+  if (!may_begin(outcome, {.mode = Mode::sync})) return;
   begin_following();
   leave_home();
 }
@@ -225,7 +233,7 @@ void AxisCommands::switch_servo(bool on) {
 
 void AxisCommands::clear_alarm() {
   AxisState& axis = this->axis();
-  if (signals().alarm_clear(number()) && chose(option("aclr_again", "ignored"))) return;
+  if (signals().alarm_clear(number()) && chose(option("aclr_again", "ignored"))) return tell_clears_already();
   axis.alarm_latched = false;  // an input that is still on sets it again
   axis.alarm_clear_until = now() + 1 + kAlarmClearTicks;
 }

@@ -67,6 +67,7 @@ class Simple2R3 final : public StatefulDevice<Simple2R3, State>,
     Device::warn_not_implemented(row.name, row.not_implemented);
   }
   Addressing addressing(std::uint8_t address) const override;
+  Reasons* reasons() override { return &setup_.reasons; }
   pty::LineSettings line_settings(std::size_t port) const override;
 
   // --- memory and program --------------------------------------------------------------------------

@@ -4,8 +4,10 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 
 #include "base/simulated_time.h"
+#include "emulator/device/reasons.h"
 #include "emulator/device/register_map/row.h"
 #include "emulator/models/simple2_r3/axis_drive.h"
 #include "emulator/models/simple2_r3/axis_slots.h"
@@ -53,7 +55,14 @@ bool is_write_protected(const Simple2R3& device) {
   return !is_unlocked(device) && device.chose(option("locked_writes", "ignored"));
 }
 
-/// Copies the values of a set to the axis's registers, if a choice requires it.
+/// Says that the device ignores a command, and which choice decides that.
+void say_ignored(const Simple2R3& device, const char* what, const char* why, const Option& chosen) {
+  device.setup().reasons.say(device.now(), std::string("ignores ") + what + ": " + why + " (" +
+                                               choice_words(device.setup(), chosen.choice) + ")");
+}
+constexpr const char* kLocked = "the program is locked, because PWD does not match";
+
+/// Copies a set to the axis's registers, only if so chosen.
 void show_set(Simple2R3& device, int axis, const MoveParameters& set) {
   if (!device.chose(option("set_move", "copied"))) return;
   auto& image = device.state().image;
@@ -275,9 +284,13 @@ void go_home(Simple2R3& device, Cell cell, Value) {
 }
 
 void command_velocity(Simple2R3& device, Cell cell, Value milli_rpm) {
-  // According to the manual, the speed takes effect with the high word, so a low word that is written alone
-  // must wait for the high word.
-  if (!cell.high_half && !device.chose(option("velocity_commit", "takes_effect"))) return;
+  // The manual notes next to the high word that the speed takes effect, so a low word written alone has to
+  // wait for the high word.
+  if (!cell.high_half && !device.chose(option("velocity_commit", "takes_effect"))) {
+    return say_ignored(device, "the low word of the velocity until the high word is written",
+                       "the high word makes the speed take effect",
+                       option("velocity_commit", "takes_effect"));
+  }
   device.axis(cell.argument).run_velocity(milli_rpm);
 }
 
@@ -304,7 +317,8 @@ void preset_timer(Simple2R3& device, Cell cell, Value value) {
 }
 
 void start_program(Simple2R3& device, Cell, Value line) {
-  if (!is_unlocked(device) && device.chose(option("locked_start", "ignored"))) return;
+  if (!is_unlocked(device) && device.chose(option("locked_start", "ignored")))
+    return say_ignored(device, "the start", kLocked, option("locked_start", "ignored"));
   device.programs().start(static_cast<std::uint8_t>(line));
 }
 
@@ -314,7 +328,7 @@ void write_cell(Simple2R3& device, Cell cell, Value value) {
   const int number = 4 * cell.index + cell.argument;
   if (is_write_protected(device)) {
     device.state().image[cell_slot(cell)] = device.state().program.cell(number);
-    return;
+    return say_ignored(device, "the write to the program", kLocked, option("locked_writes", "ignored"));
   }
   device.state().program.set_cell(number, static_cast<std::uint8_t>(value));
 }
@@ -326,7 +340,8 @@ void change_password(Simple2R3& device, Cell, Value password) {
 }
 
 void erase_program(Simple2R3& device, Cell, Value) {
-  if (is_write_protected(device)) return;
+  if (is_write_protected(device))
+    return say_ignored(device, "the erasure", kLocked, option("locked_writes", "ignored"));
   device.power().erase_program();
 }
 

@@ -109,6 +109,11 @@ std::uint16_t Setup::adc(int number) const {
   return static_cast<std::uint16_t>(std::max(adc, 0));
 }
 
+std::string choice_words(const Setup& setup, std::size_t choice) {
+  const ChoiceRow& row = setup.device.model().choices[choice];
+  return "choice " + std::string(row.id) + " = " + std::string(options_of(row)[setup.device.choice(choice)]);
+}
+
 MapPolicy map_policy_of(const Setup& setup) {
   MapPolicy policy = setup.device.model().registers->policy();
   if (setup.chose(option("unmapped_addresses", "zero_and_ignored")))

@@ -18,9 +18,11 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 
 #include "base/simulated_time.h"
 #include "emulator/device/device.h"
+#include "emulator/device/reasons.h"
 #include "emulator/device/register_map/row.h"
 #include "emulator/models/simple2_r3/options.h"
 #include "emulator/models/simple2_r3/terminals.h"
@@ -55,6 +57,9 @@ struct alignas(64) Setup {
 
   const Tick boot_ticks;
 
+  /// Receives why commands had no effect. It is not state.
+  mutable Reasons reasons{};
+
   bool chose(const Option& option) const { return device.chose(option); }
   Tick now() const { return device.now(); }
   /// Returns the time in the unit of the timers.
@@ -77,7 +82,10 @@ struct alignas(64) Setup {
   std::uint16_t adc(int number) const;
 };
 
-/// Returns the map's policy with the choices of a device.
+/// Returns "choice ready_gates = yes", with the option that is in effect, for texts.
+std::string choice_words(const Setup& setup, std::size_t choice);
+
+/// Returns the map's policy under the choices of a device.
 MapPolicy map_policy_of(const Setup& setup);
 
 }  // namespace understudy::emulator::models::simple2_r3

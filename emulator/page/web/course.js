@@ -86,7 +86,7 @@ function exchanges(frames) {
   const asked = new Map();  // by the number of the request
   for (const frame of frames) {
     const end_ns = frame.time_ns + duration_ns(frame);
-    const isBad = Boolean(frame.exception || frame.remark);
+    const isBad = Boolean(frame.exception || frame.ignored || frame.remark);
     const request = frame.way !== 'out' ? undefined : frame.request !== undefined ? asked.get(frame.request)
       : frame.bytes ? undefined : last.get(frame.line);
     if (request && !(request.reply && frame.text)) {
@@ -105,7 +105,7 @@ function exchanges(frames) {
 }
 
 const eventSpan = (event) => ({ ...event, lane: event.by ? `events of ${event.by}` : 'events', kind: 'event', begin_ns: event.time_ns, end_ns: event.time_ns,
-  bad: event.what === 'exception' || event.what === 'dropped' });
+  bad: ['exception', 'ignored', 'dropped'].includes(event.what) });
 
 /// `waits` are those of a host in simulated time.
 export function liveCourse(names, stretch, dots, waits) {

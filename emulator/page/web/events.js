@@ -20,7 +20,7 @@ export function EventList({ fits = () => true, most = kShown }) {
   return html`${store.events.length === 0 ? html`<p>Nothing yet.</p>` : shown.length === 0 ? html`<p>Nothing matches.</p>` : ''}
     <div class="scroll"><table class="events"><tbody>${shown.slice(-most).reverse().map((event) => event.missed && event.key ? html`<${Missed}
       key=${event.key} count=${event.missed} what="events" columns="4" />` : html`<tr key=${event.number}
-      class=${event.what === 'exception' || event.what === 'dropped' ? 'bad' : ''}>
+      class=${event.what === 'exception' || event.what === 'dropped' ? 'bad' : event.what === 'ignored' ? 'ignored' : ''}>
       <td class="figure"><${Time} ns=${event.time_ns} /></td><td>${event.what}</td><td>${event.by ?? ''}</td><td>${wordsOf(event)}</td></tr>`)}</tbody></table></div>`;
 }
 

@@ -92,11 +92,12 @@ void add_events(std::vector<Span>& spans, const world::History& history, SimTime
     add("value", event.value);
     add("text", event.text);
     const std::string lane = event.by.empty() ? "events" : "events of " + event.by;
-    spans.push_back({.lane = lane,
-                     .begin = event.time,
-                     .end = event.time,
-                     .entry = std::move(entry),
-                     .is_bad = event.what == "exception" || event.what == "dropped"});
+    spans.push_back(
+        {.lane = lane,
+         .begin = event.time,
+         .end = event.time,
+         .entry = std::move(entry),
+         .is_bad = event.what == "exception" || event.what == "ignored" || event.what == "dropped"});
     if (event.what == "power" && event.value == "0") {
       begin("power " + event.device, event, "power", event.device + " has no power");
     } else if (event.what == "power") {

@@ -87,6 +87,7 @@ bool Listing::add_frame(ReplyText& text) {
     frame["bytes"] = hex_of(entry.bytes);
     if (entry.latency) frame["latency_ns"] = entry.latency->count();
     if (entry.is_refusal) frame["exception"] = true;
+    if (entry.is_ignored) frame["ignored"] = true;
     if (entry.request) frame["request"] = *entry.request;
     for (const Device* const device : entry.devices) frame["devices"].push_back(device->name());
   }

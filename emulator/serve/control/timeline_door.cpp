@@ -43,8 +43,8 @@ constexpr std::size_t kMaxBefore = 200;  // the most frames, and the most events
 
 /// Returns true for events that appear on the timeline.
 bool is_mark(std::string_view what) {
-  return what == "fault" || what == "inject" || what == "clear" || what == "exception" || what == "dropped" ||
-         what == "power" || what == "program";
+  return what == "fault" || what == "inject" || what == "clear" || what == "exception" || what == "ignored" ||
+         what == "dropped" || what == "power" || what == "program";
 }
 
 /// The commands that do not change the bench. A recording refuses all others, because it shows what happened.

@@ -29,9 +29,9 @@ namespace understudy::emulator::world {
 
 namespace {
 
-/// The kinds in the event log, and the kinds of what devices and machines report.
-const std::vector<std::string> kEvents{"exception", "dropped", "fault", "power",         "program",
-                                       "command",   "input",   "alarm", "program-error", "limit"};
+/// The words of the event log, and words for what devices and machines report.
+const std::vector<std::string> kEvents{"exception", "ignored", "dropped", "fault",         "power", "program",
+                                       "command",   "input",   "alarm",   "program-error", "limit"};
 const std::vector<std::string> kAuthors{"host", "control", "page", "device"};
 
 void require_word(const std::string& word, const std::vector<std::string>& known, const char* field) {

@@ -13,7 +13,9 @@
 
 #include "base/simulated_time.h"
 #include "emulator/device/device.h"
+#include "emulator/device/modbus/modbus_station.h"
 #include "emulator/device/model.h"
+#include "emulator/device/reasons.h"
 #include "emulator/device/register_map/access.h"
 #include "emulator/device/register_map/register_bank.h"
 #include "emulator/device/register_map/register_map.h"
@@ -73,6 +75,14 @@ class EventLog::Served final : public pty::LineObserver {
   void on_nothing_more() override {}
   void on_transmission(const pty::Transmission& /*transmission*/) override {}
   void on_served(const pty::ServedRequest& served) override {
+    note_write(served);
+    if (served.why.empty()) return;
+    const WorldLine& line = log_.world_.line(line_);
+    const Device* const device = &line.stations[served.station]->device();
+    for (std::size_t i = 0; i < log_.next_reasons_.size(); ++i)
+      if (&log_.world_.device(i) == device) log_.note_ignored(i, served.why, line.line.name());
+  }
+  void note_write(const pty::ServedRequest& served) {
     constexpr std::uint8_t kRefused = 0x80;
     if (!is_write(served.request) || served.answer.empty() || (served.answer[0] & kRefused) != 0) return;
     Noted noted{
@@ -97,6 +107,11 @@ class EventLog::Served final : public pty::LineObserver {
 
 EventLog::EventLog(World& world, const FrameLog& frames) : world_(world), frames_(frames) {
   world_.add_listener(*this);
+  for (std::size_t i = 0; i < world_.device_count(); ++i) {
+    ModbusStation* const modbus = world_.device(i).modbus();
+    next_reasons_.push_back(
+        modbus == nullptr || modbus->reasons() == nullptr ? 0 : modbus->reasons()->next_number());
+  }
   for (std::size_t i = 0; i < world_.line_count(); ++i) {
     served_.push_back(std::make_unique<Served>(*this, i));
     world_.add_observer(i, *served_.back());
@@ -106,6 +121,27 @@ EventLog::EventLog(World& world, const FrameLog& frames) : world_(world), frames
 EventLog::~EventLog() {
   for (std::size_t i = 0; i < served_.size(); ++i) world_.remove_observer(i, *served_[i]);
   world_.remove_listener(*this);
+}
+
+void EventLog::note_ignored(std::size_t number, std::string_view why, const std::string& line) {
+  Device& device = world_.device(number);
+  const Reasons* const reasons = device.modbus() == nullptr ? nullptr : device.modbus()->reasons();
+  if (reasons == nullptr || reasons->next_number() == next_reasons_[number]) return;
+  for (Reasons::Said& said : reasons->since(std::exchange(next_reasons_[number], reasons->next_number()))) {
+    const bool is_of_host = why.find(said.text) != std::string_view::npos;
+    Noted noted{.event = {.what = "ignored",
+                          .by = is_of_host ? "host" : "",
+                          .line = is_of_host ? line : std::string(),
+                          .device = device.name(),
+                          .text = std::move(said.text)}};
+    noted.event.time = time_of(said.tick);
+    note(std::move(noted));
+  }
+}
+
+/// Those of programs are noted late: when somebody reads the events.
+void EventLog::note_all_ignored() {
+  for (std::size_t i = 0; i < next_reasons_.size(); ++i) note_ignored(i, {}, {});
 }
 
 void EventLog::note(Noted noted) {
@@ -250,6 +286,7 @@ void EventLog::take_frame(const FrameLog::Decoded& frame) {
 
 /// Adds the events from frames and the other events in the order in which they happened.
 bool EventLog::collect(std::size_t frames) {
+  note_all_ignored();
   const std::uint64_t end = frames_.next_number();
   const auto add_noted_before = [&](std::uint64_t frame) {
     for (; !noted_.empty() && noted_.front().next_frame <= frame; noted_.pop_front())

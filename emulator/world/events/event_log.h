@@ -1,6 +1,6 @@
-// The events of a bench, for observers: writes to registers and their authors, inputs, power, programs,
-// faults, refused requests, dropped frames. Events are numbered from 1, and only the most recent ones are
-// kept.
+// Lists the events of a bench for observers: writes to registers and their authors, inputs, power, programs,
+// faults, refused requests, commands without effect, dropped frames. Events are numbered from 1, and only the
+// most recent ones are kept.
 //
 // Outside events are recorded when they happen. Write requests from hosts are recorded when a device executes
 // them, because only then can it be determined that it did, and which station number it had. All other events
@@ -25,8 +25,8 @@ namespace understudy::emulator::world {
 struct Event {
   std::uint64_t number = 0;
   SimTime time{0};
-  /// one of write, input, power, program, command, inject, clear, fault, exception, dropped, restored, speed,
-  /// stop, logpoint
+  /// one of write, input, power, program, command, inject, clear, fault, exception, ignored, dropped,
+  /// restored, speed, stop, logpoint
   std::string_view what;
   std::string by;      // host, control or page; empty if the event has none of these causes
   std::string line{};  // the line of the host that caused the event
@@ -82,6 +82,10 @@ class EventLog final : private OutsideListener {
   /// Records the requests that the stations of a line execute.
   class Served;
   void note(Noted noted);
+  /// Notes the commands that a device has ignored since the last call.
+  /// Those that `why` names are of the host on `line`, whose request was served last.
+  void note_ignored(std::size_t device, std::string_view why, const std::string& line);
+  void note_all_ignored();
 
   void on_input(std::size_t device, int terminal, std::int32_t level) override;
   void on_power(std::size_t device, bool on) override;
@@ -101,6 +105,7 @@ class EventLog final : private OutsideListener {
   World& world_;
   const FrameLog& frames_;
   std::vector<std::unique_ptr<Served>> served_;  // one per line
+  std::vector<std::uint64_t> next_reasons_;      // by device: the next of its reasons to note
   std::string author_ = "control";
   std::deque<Noted> noted_;
   std::deque<Event> events_;

@@ -69,7 +69,7 @@ void History::take(const World& world, const FrameLog::Decoded& frame) {
     if (!frame.text.empty()) exchange.reply = frame.text;
     if (!frame.remark.empty()) exchange.remark += (exchange.remark.empty() ? "" : "; ") + frame.remark;
     if (frame.latency) exchange.latency = frame.latency;
-    exchange.is_refusal = exchange.is_refusal || frame.is_refusal;
+    exchange.is_refusal = exchange.is_refusal || frame.is_refusal || frame.is_ignored;
     return;
   }
   if (exchanges_.size() == kMaxExchanges) {

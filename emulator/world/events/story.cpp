@@ -76,6 +76,7 @@ std::string moment_text(const Event& event) {
   if (event.what == "command") return by + " commands " + event.device + ": " + event.text;
   if (event.what == "program") return by + " loads a program into " + event.device + ": " + event.text;
   if (event.what == "exception") return event.line + ": " + event.text;
+  if (event.what == "ignored") return event.device + ": " + event.text;
   if (event.what == "dropped") return event.line + ": dropped: " + event.text;
   return event.text.empty() ? std::string(event.what) : event.text;
 }

@@ -64,7 +64,10 @@ void FrameLog::add(const pty::CapturedPacket& packet) {
   frame.time = packet.time;
   frame.bytes.assign(packet.bytes.begin(), packet.bytes.end());
   frame.comment.clear();
-  if (pty::has_comment(packet)) frame.comment = pty::comment_of(packet);
+  frame.why = packet.why;
+  pty::CapturedPacket without_why = packet;
+  without_why.why = {};
+  if (pty::has_comment(without_why)) frame.comment = pty::comment_of(without_why);
   frame.last_character = packet.last_character;
   frame.addressed.clear();
   if (packet.direction == pty::Direction::from_host && !packet.bytes.empty()) {
@@ -129,6 +132,8 @@ FrameLog::Decoded FrameLog::decode(std::size_t place) const {
     decoded.request = number_of(*request);
   }
   decoded.text = line.protocol.reply_text(line.stations, device_of(request, frame), bytes, frame.bytes);
+  if (!frame.why.empty()) decoded.text += (decoded.is_refusal ? ": " : ", but ") + frame.why;
+  decoded.is_ignored = !frame.why.empty() && !decoded.is_refusal;
   return decoded;
 }
 

@@ -43,6 +43,7 @@ class FrameLog {
     std::string remark;                      // why it was dropped, or another remark
     std::span<const std::uint8_t> bytes{};   // valid until the next frame is added
     bool is_refusal = false;                 // a reply that refuses the request
+    bool is_ignored = false;                 // a reply to a command that had no effect; `text` says why
     std::optional<SimTime> latency{};        // for a reply: since its request began
     std::optional<std::uint64_t> request{};  // for a reply: the number of the request
     /// For a request: the devices that it addressed when it was sent. On a line without addresses, there are
@@ -67,8 +68,9 @@ class FrameLog {
     SimTime time{0};
     std::vector<std::uint8_t> bytes;
     std::string comment{};
-    std::uint64_t last_character = 0;      // of the request, or of a reply's request; 0: unknown
-    std::vector<std::size_t> addressed{};  // the stations that a request addressed when it was sent
+    std::string why{};                     // of a reply: why the request had no effect or was refused
+    std::uint64_t last_character = 0;      // of the request, or of the answered request; 0: unknown
+    std::vector<std::size_t> addressed{};  // the line's stations that a request addressed when it was sent
   };
   /// Returns the last `max` kept frames whose numbers are at least `number`.
   std::vector<Frame> kept_since(std::uint64_t number, std::size_t max) const;
