@@ -127,9 +127,16 @@ Bundle bundled(const std::function<std::string_view(std::string_view name)>& tex
   return bundle;
 }
 
-std::string with_bundle(std::string_view html) {
-  return replaced(replaced(std::string(html), "src=\"page.js\"", "src=\"first.js\""), "</head>",
-                  "<link rel=\"modulepreload\" href=\"preact.js\">\n</head>");
+std::string with_scripts(std::string_view html, std::string_view early, std::string_view first,
+                         std::string_view nonce) {
+  const std::string with_nonce = " nonce=\"" + std::string(nonce) + "\"";
+  const auto inside = [&](const std::string& attributes, std::string_view text) {
+    return "<script" + attributes + with_nonce + ">\n" + std::string(text) + "</script>";
+  };
+  std::string page = replaced(std::string(html), "<script src=\"early.js\"></script>",
+                              inside("", early) + "\n<link rel=\"modulepreload\" href=\"preact.js\">");
+  return replaced(std::move(page), "<script type=\"module\" src=\"page.js\"></script>",
+                  inside(" type=\"module\"", first));
 }
 
 }  // namespace understudy::emulator::page

@@ -20,7 +20,10 @@ struct Bundle {
 /// imported as they are.
 Bundle bundled(const std::function<std::string_view(std::string_view name)>& text_of);
 
-/// Returns the page's HTML with the first part of the bundle in place of its module.
-std::string with_bundle(std::string_view html);
+/// Returns the page's HTML with its scripts inside: `early`, and the first part of the bundle in place of its
+/// module. A browser with a slow connection then needs no further round trip for them. The content security
+/// policy must admit scripts with this nonce.
+std::string with_scripts(std::string_view html, std::string_view early, std::string_view first,
+                         std::string_view nonce);
 
 }  // namespace understudy::emulator::page

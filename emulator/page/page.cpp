@@ -41,8 +41,8 @@ std::string_view word_for(PageBench::State state) {
 }
 
 constexpr std::string_view kIndex = "index.html";
-constexpr std::string_view kFirstPart = "first.js";  // of the bundle
-constexpr std::string_view kRest = "rest.js";
+constexpr std::string_view kEarly = "early.js";
+constexpr std::string_view kRest = "rest.js";  // the second part of the bundle
 
 bool is_file_name(std::string_view name) {
   return !name.empty() && name.front() != '.' && std::all_of(name.begin(), name.end(), [](char letter) {
@@ -88,16 +88,15 @@ std::optional<WebFile> Page::file(std::string_view path) {
 
 std::optional<WebFile> Page::built_in(std::string_view name) {
   if (const auto known = files_.find(name); known != files_.end()) return known->second;
-  std::string bytes;
-  if (name == kFirstPart || name == kRest) {
-    Bundle bundle = bundled(embedded_text);
-    bytes = std::move(name == kFirstPart ? bundle.first : bundle.rest);
-  } else {
-    bytes = embedded_text(name);
-  }
+  std::string bytes(name == kRest ? bundled(embedded_text).rest : std::string(embedded_text(name)));
   if (bytes.empty()) return std::nullopt;
-  if (name == kIndex && options_.folder.empty()) bytes = with_bundle(bytes);
-  WebFile file{.type = std::string(type_of(name)), .bytes = bytes, .gzipped = gzipped(bytes)};
+  WebFile file{.type = std::string(type_of(name)), .bytes = {}, .gzipped = {}};
+  if (name == kIndex && options_.folder.empty()) {
+    file.nonce = make_token();
+    bytes = with_scripts(bytes, embedded_text(kEarly), bundled(embedded_text).first, file.nonce);
+  }
+  file.gzipped = gzipped(bytes);
+  file.bytes = std::move(bytes);
   return files_.emplace(name, std::move(file)).first->second;
 }
 

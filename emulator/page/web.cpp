@@ -55,13 +55,14 @@ using Response = http::response<http::string_body>;
 std::string_view view(beast::string_view text) { return {text.data(), text.size()}; }
 
 /// Sets the headers of every reply: pages load nothing from other sites, stay out of frames, and are not
-/// cached.
-void set_policy(http::fields& fields) {
+/// cached. Scripts inside a page must have its nonce.
+void set_policy(http::fields& fields, const std::string& nonce = {}) {
   fields.set(http::field::server, "understudy");
+  const std::string scripts = "'self'" + (nonce.empty() ? std::string() : " 'nonce-" + nonce + "'");
   fields.set("Content-Security-Policy",
-             "default-src 'self'; script-src 'self'; style-src 'self'; connect-src 'self'; img-src 'self' "
-             "data: blob:; "
-             "object-src 'none'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'");
+             "default-src 'self'; script-src " + scripts +
+                 "; style-src 'self'; connect-src 'self'; img-src 'self' data: blob:; "
+                 "object-src 'none'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'");
   fields.set("X-Content-Type-Options", "nosniff");
   fields.set("X-Frame-Options", "DENY");
   fields.set("Referrer-Policy", "no-referrer");
@@ -314,6 +315,7 @@ class Web::Inside::Visit : public std::enable_shared_from_this<Visit> {
         !file->gzipped.empty() && accepts_gzip(view(request[http::field::accept_encoding]));
     Response found =
         answer_to(request, http::status::ok, file->type, std::move(is_packed ? file->gzipped : file->bytes));
+    set_policy(found, file->nonce);
     found.set(http::field::vary, "Accept-Encoding");
     if (is_packed) found.set(http::field::content_encoding, "gzip");
     respond(std::move(found));

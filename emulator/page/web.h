@@ -31,6 +31,7 @@ struct WebFile {
   std::string type;  // "text/html; charset=utf-8"
   std::string bytes;
   std::string gzipped;  // the same bytes, for browsers that take it
+  std::string nonce{};  // of the scripts inside it; empty: it has none
 };
 
 /// Receives events of browsers.

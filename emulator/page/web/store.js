@@ -203,16 +203,23 @@ async function timelineOf(number) {
   return timeline;
 }
 
+/// The first view does without them.
+async function learnKinds(number) {
+  const { kinds, trigger } = await wire.ask(number, { do: 'faults' });
+  if (number !== store.number) return;
+  Object.assign(store, { kinds: kinds ?? [], trigger: trigger ?? [] });
+  draw();
+}
+
 async function learn() {
   const number = store.number;
   if (!isKnown) forget();
   isKnown = true;
   // All at once, because a request may take long.
-  const [{ bench }, { devices }, kinds, timeline] = await Promise.all([wire.ask(number, { do: 'bench' }),
-    wire.ask(number, { do: 'bench', device: '*' }), wire.ask(number, { do: 'faults' }), timelineOf(number)]);
+  const [{ bench }, { devices }, timeline] = await Promise.all([wire.ask(number, { do: 'bench' }),
+    wire.ask(number, { do: 'bench', device: '*' }), timelineOf(number)]);
   if (number !== store.number || !bench || !devices) return;
-  store.kinds = kinds.kinds ?? [];
-  store.trigger = kinds.trigger ?? [];
+  learnKinds(number);
   for (const device of devices) store.devices[device.name] = device;
   store.timeline = timeline;
   store.bench = bench;

@@ -8,6 +8,7 @@ export class Wire {
     this.token = location.hash.slice(1).split('&')[0];  // what follows is a moment (link.js)
     this.watched = new Map();
     this.waiting = new Map();
+    this.early = new Map();  // by a question that has been sent already: its answer
     this.lastId = 0;
     this.pause = 250;
     this.open();
@@ -28,15 +29,17 @@ export class Wire {
   }
 
   forget() {
+    this.early.clear();
     for (const answer of this.waiting.values()) answer({ ok: false, error: 'the page lost the connection to its server' });
     this.waiting.clear();
     this.isKnown = false;
   }
 
   open() {
-    const socket = new WebSocket(`ws://${location.host}/ws`);
+    const early = this.takeEarly();
+    const socket = early ? early.socket : new WebSocket(`ws://${location.host}/ws`);
     this.socket = socket;
-    socket.onopen = () => socket.send(JSON.stringify({ token: this.token }));
+    if (!early) socket.onopen = () => socket.send(JSON.stringify({ token: this.token }));
     socket.onmessage = (event) => {
       this.heardAt = performance.now();
       this.pinged = null;
@@ -48,6 +51,19 @@ export class Wire {
       setTimeout(() => this.open(), this.pause);
       this.pause = Math.min(this.pause * 2, 4000);
     };
+    // Later, because whoever makes the wire does not have it yet.
+    if (early) setTimeout(() => { early.heard.forEach(socket.onmessage); if (early.closed) socket.onclose(early.closed); });
+  }
+
+  /// Takes over the connection of early.js, once. Its questions to the first bench have the numbers from 0 on.
+  takeEarly() {
+    const all = /** @type {any} */ (globalThis);
+    const { early } = all;
+    delete all.early;
+    if (!early) return null;
+    early.asked.forEach((text, id) => this.early.set(text, new Promise((resolve) => { this.waiting.set(id, resolve); })));
+    this.lastId = early.asked.length;
+    return early;
   }
 
   take(message) {
@@ -77,6 +93,9 @@ export class Wire {
   // Sends a message of docs/control.md, and resolves to its reply.
   ask(bench, message) {
     if (!this.isKnown) return Promise.resolve({ ok: false, error: 'the page is not connected to its server' });
+    const text = bench === 0 && this.early.size > 0 ? JSON.stringify(message) : '';
+    const answer = this.early.get(text);
+    if (answer && this.early.delete(text)) return answer;
     const id = ++this.lastId;
     return new Promise((resolve) => {
       this.waiting.set(id, resolve);

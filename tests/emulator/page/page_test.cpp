@@ -73,7 +73,7 @@ TEST(PageFiles, AreServedWithTheirTypesAndAStrictPolicy) {
     }
     EXPECT_FALSE(browser.read_all().empty());
   }
-  for (const std::string path : {"/", "/first.js", "/rest.js", "/preact.js", "/page.css"}) {
+  for (const std::string path : {"/", "/rest.js", "/preact.js", "/page.css"}) {
     TestBrowser plain(rig.page.port());
     TestBrowser packing(rig.page.port());
     const std::string request = "GET " + path + " HTTP/1.1\r\nHost: 127.0.0.1:" + at + "\r\n";
@@ -86,6 +86,31 @@ TEST(PageFiles, AreServedWithTheirTypesAndAStrictPolicy) {
   std::size_t bytes = 0;
   for (const EmbeddedFile& file : embedded_files()) bytes += file.bytes.size();
   EXPECT_LT(bytes, 300'000U);
+}
+
+/// A slow connection needs no further round trips for them.
+TEST(PageFiles, HaveTheFirstScriptsInsideThePage) {
+  PageRig rig;
+  const std::string request = "GET / HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(rig.page.port()) + "\r\n";
+  TestBrowser browser(rig.page.port());
+  EXPECT_EQ(browser.ask(request), "HTTP/1.1 200");
+  const std::string head = browser.head();
+  const std::string page = browser.read_all();
+  EXPECT_EQ(page.find("src=\"page.js\""), std::string::npos);
+  EXPECT_EQ(page.find("src=\"early.js\""), std::string::npos);
+  EXPECT_NE(page.find("new WebSocket"), std::string::npos);
+  EXPECT_NE(page.find("modules['./page.js']"), std::string::npos);
+  const std::string before = "script-src 'self' 'nonce-";
+  const std::size_t at = head.find(before);
+  ASSERT_NE(at, std::string::npos) << head;
+  const std::string nonce = head.substr(at + before.size(), 32);
+  EXPECT_NE(nonce, rig.page.token());
+  std::size_t scripts = 0;
+  for (std::size_t i = page.find("<script"); i != std::string::npos; i = page.find("<script", i + 1)) {
+    ++scripts;
+    EXPECT_NE(page.substr(i, page.find('>', i) - i).find(" nonce=\"" + nonce + "\""), std::string::npos);
+  }
+  EXPECT_EQ(scripts, 2U);
 }
 
 TEST(PageFiles, HoldNoOtherFileAndNoSecret) {
