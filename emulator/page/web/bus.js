@@ -3,17 +3,22 @@
 import { html } from './preact.js';
 import { ask, isLocked, store, withHoles } from './store.js';
 import { Button, Choice, Field, Missed, grouped, save, seconds } from './small.js';
-import { useKept } from './kept.js';
+import { keep, kept, useKept } from './kept.js';
 import { pcapng } from './pcapng.js';
 import { kBounds_ms } from './heard.js';
 
 const kShown = 200;
 
+/// Which of the next frames like a row the row's button drops.
+const kNth = 'which of the next to drop';
+const nthDropped = () => kept(kNth, 1);
+const kOrdinals = ['', '', '2nd ', '3rd ', '4th ', '5th ', '6th ', '7th ', '8th ', '9th '];
+
 const lineNamed = (name) => store.bench?.lines.find((line) => line.name === name);
 
 /// A dropped request does not reach the device. A dropped reply does not reach the host, but its request is executed.
 function dropNext(frame) {
-  const fault = { drop: frame.line, of: frame.way === 'in' ? 'request' : 'reply', nth: 1, times: 1 };
+  const fault = { drop: frame.line, of: frame.way === 'in' ? 'request' : 'reply', nth: nthDropped(), times: 1 };
   if (!lineNamed(frame.line)?.text && frame.bytes?.length >= 4) {
     fault.function = parseInt(frame.bytes.slice(2, 4), 16) & 0x7f;
     fault.station = parseInt(frame.bytes.slice(0, 2), 16);
@@ -23,7 +28,7 @@ function dropNext(frame) {
 }
 
 function Frame({ frame }) {
-  const kind = frame.exception || /drop|not received|not sent|cut|corrupt/.test(frame.remark ?? '') ? 'bad' : frame.remark ? 'odd' : '';
+  const kind = frame.exception || /drop|not received|not sent|cut|corrupt/.test(frame.remark ?? '') ? 'bad' : frame.ignored ? 'ignored' : frame.remark ? 'odd' : '';
   const latency = frame.latency_ns !== undefined ? `${(frame.latency_ns / 1e6).toFixed(2)} ms` : '';
   const isRequest = frame.way === 'in';
   return html`<tr class=${`${frame.way} ${kind}`} title=${frame.bytes}>
@@ -31,8 +36,8 @@ function Frame({ frame }) {
     <td class="way" aria-label=${isRequest ? 'from the host' : 'to the host'}>${isRequest ? '→' : '←'}</td>
     <td class="words">${frame.text || (frame.bytes ? '' : html`<b>no frame</b>`)} ${frame.remark && html`<em>${frame.remark}</em>`}</td>
     <td class="figure">${latency}</td>
-    <td>${frame.bytes && html`<${Button} kind="small faint" title=${`drop the next ${isRequest ? 'request' : 'reply'} like this`} disabled=${isLocked()}
-      does=${() => dropNext(frame)}>drop next<//>`}</td></tr>`;
+    <td>${frame.bytes && html`<${Button} kind="small faint" title=${`drop the ${kOrdinals[nthDropped()]}next ${isRequest ? 'request' : 'reply'} like this`} disabled=${isLocked()}
+      does=${() => dropNext(frame)}>drop ${kOrdinals[nthDropped()]}next<//>`}</td></tr>`;
 }
 
 function ByHand() {
@@ -76,8 +81,8 @@ function Connections({ isFirst }) {
   return html`<details class="connections" open=${isFirst}><summary>where to connect</summary><ul>${lines.map((status) => {
     const line = lineNamed(status.name);
     const example = line ? exampleFor(line, status) : '';
-    return html`<li key=${status.name}><b>${status.name}</b> <code>${status.link || status.pty}</code>${(status.tcp ?? []).map((place) => html`, <code>${place}</code>`)},
-      ${status.settings}; ${status.host === 'open' ? `a host has it open${status.host_settings ? ` (${status.host_settings})` : ''}` : 'no host has it open'}
+    return html`<li key=${status.name}><b>${status.name}</b> <code>${status.link || status.pty}</code>${(status.tcp ?? []).map((place) => html`, <code>${place}</code>`)}, ${status.settings};
+      ${' '}${status.host === 'open' ? `a host has it open${status.host_settings ? ` (${status.host_settings})` : ''}` : 'no host has it open'}
       ${example && html`<br /><code class="example">${example}</code>`}</li>`;
   })}</ul></details>`;
 }
@@ -111,16 +116,18 @@ export function Bus() {
   const [held, hold] = useKept('held frames', null, false);
   const frames = held ?? store.frames;
   const fits = (frame) => (filter === '' || `${frame.line} ${frame.text} ${frame.remark ?? ''}`.toLowerCase().includes(filter.toLowerCase())) &&
-    (what === 'all' || (what === 'exceptions' ? frame.exception : what === 'dropped' ? frame.remark : frame.way === what));
+    (what === 'all' || (what === 'exceptions' ? frame.exception || frame.ignored : what === 'dropped' ? frame.remark : frame.way === what));
   const shown = withHoles(frames, fits);
   const count = shown.filter((it) => !it.key).length;
   return html`<div class="bar">
       <input type="search" aria-label="find in frames" placeholder="find" value=${filter} onInput=${(event) => setFilter(event.target.value)} />
       <${Choice} label="which frames" value=${what} takes=${setWhat} options=${[['all', 'all frames'], ['in', 'requests'], ['out', 'replies'],
-        ['exceptions', 'exceptions'], ['dropped', 'dropped or with a remark']]} />
+        ['exceptions', 'exceptions or without effect'], ['dropped', 'dropped or with a remark']]} />
       <${Button} title="pause the list" pressed=${held !== null} does=${() => hold(held ? null : [...store.frames])}>pause<//>
       <${Button} title="save these frames as a capture" does=${() => save('bus.pcapng', [pcapng(shown, store.bench?.lines ?? [])],
         'application/x-pcapng')}>pcapng<//>
+      ${!isLocked() && html`<${Choice} label="which of the next frames a row's button drops" value=${String(nthDropped())}
+        options=${kOrdinals.map((word, n) => [String(n), `drop the ${word || 'very '}next`]).slice(1)} takes=${(n) => keep(kNth, Number(n))} />`}
       <small class="figure count">${grouped(count)} of ${grouped(frames.length)}${store.framesLost ? `, ${grouped(store.framesLost)} not shown` : ''}</small>
     </div>
     ${!store.timeline && html`<${ByHand} />`}<${Drops} />

@@ -1,7 +1,7 @@
 // The form for a fault, built from the program's own description of faults.
 import { html } from './preact.js';
-import { ask, store } from './store.js';
-import { Button, Choice, spaced } from './small.js';
+import { ask, complain, store } from './store.js';
+import { Button, Choice, grouped, spaced } from './small.js';
 import { useKept } from './kept.js';
 
 /// Returns the names of the places that a kind of fault can have.
@@ -24,18 +24,19 @@ function placesFor(place) {
 function Line({ field, values, setValues }) {
   const set = (event) => setValues({ ...values, [field.name]: event.target.value });
   const isBounded = field.lowest !== undefined && field.highest < 1e9;  // a higher limit is no limit in practice
-  const range = isBounded ? ` (${field.lowest} to ${field.highest})` : field.lowest > 0 ? ` from ${field.lowest}` : '';
+  const range = isBounded ? ` ${grouped(field.lowest)} to ${grouped(field.highest)}.` : field.lowest > 0 ? ` From ${grouped(field.lowest)}.` : '';
   const label = `${spaced(field.name)}${field.required ? ' *' : ''}`;
+  const doc = html`<small>${field.doc}${range}</small>`;
+  // The first of several words is the default.
   if (field.words) {
-    const words = field.required ? field.words : ['', ...field.words];
-    return html`<label title=${field.doc}><span>${label}</span>
-      <${Choice} label=${field.name} value=${values[field.name] ?? words[0]} options=${words} takes=${(word) => setValues({ ...values, [field.name]: word })} /></label>`;
+    return html`<label><span>${label}</span>
+      <${Choice} label=${field.name} value=${values[field.name] ?? field.words[0]} options=${field.words} takes=${(word) => setValues({ ...values, [field.name]: word })} />${doc}</label>`;
   }
-  const hint = { duration: 'such as 250ms', bytes: 'such as FF 00', number: `number${range}` }[field.form] ?? field.doc;
-  return html`<label title=${field.doc}><span>${label}</span>
+  const hint = { duration: 'such as 250ms', bytes: 'such as FF 00', number: 'a number' }[field.form] ?? '';
+  return html`<label><span>${label}</span>
     <input type=${field.form === 'number' ? 'number' : 'text'} min=${field.lowest} max=${field.highest}
       value=${values[field.name] ?? ''} placeholder=${hint} onInput=${set} required=${field.required}
-      spellcheck=${false} autocomplete="off" /></label>`;
+      spellcheck=${false} autocomplete="off" />${doc}</label>`;
 }
 
 /// `places` are the kinds of places to offer; without it, all of them. `place` is set if the place is already chosen.
@@ -50,13 +51,16 @@ export function FaultForm({ places, place, done }) {
   const options = placesFor(kind.place);
   const at = place ?? (options.includes(where) ? where : options[0]);
   const fields = withTrigger ? [...kind.fields, ...store.trigger] : kind.fields;
+  const fault = { [kind.name]: at };
+  for (const { name, required, words } of fields) {
+    const text = (values[name] ?? (required && words ? words[0] : '')).trim();
+    if (text !== '') fault[name] = /^-?\d+(\.\d+)?$/.test(text) ? Number(text) : text;
+  }
+  const words = Object.entries(fault).map(([name, value], i) => (i === 0 ? `${name} ${value}` : `${name}=${value}`)).join(' ');
   const inject = async () => {
-    const fault = { [kind.name]: at };
-    for (const { name, required, words } of fields) {
-      const text = (values[name] ?? (required && words ? words[0] : '')).trim();
-      if (text !== '') fault[name] = /^-?\d+(\.\d+)?$/.test(text) ? Number(text) : text;
-    }
-    if ((await ask({ do: 'inject', fault })).ok && done) { setValues({}); done(); }
+    if (!(await ask({ do: 'inject', fault })).ok) return;
+    complain(`Injected: ${words}`);
+    if (done) { setValues({}); done(); }
   };
   return html`<form class="fault_form" onSubmit=${(event) => { event.preventDefault(); inject(); }}>
     <div class="bar"><${Choice} label="kind of fault" value=${kind.name} options=${kinds.map((it) => [it.name, spaced(it.name)])} takes=${setKind} />
@@ -66,7 +70,7 @@ export function FaultForm({ places, place, done }) {
       setValues=${setValues} />`)}</div>
     <div class="bar"><label class="check"><input type="checkbox" checked=${withTrigger}
       onChange=${(event) => setTrigger(event.target.checked)} /> at a moment, a frame or a condition</label>
-    <button type="submit" class="main" disabled=${!at}>inject</button>
+    <button type="submit" class="main" disabled=${!at}>inject</button>${at && html`<code class="will">${words}</code>`}
     ${!at && html`<small>This bench has no place for this fault.</small>`}
     ${done && html`<${Button} title="close" does=${done}>close<//>`}</div>
   </form>`;

@@ -91,13 +91,13 @@ export function wordsOf(span) {
   return span.text ?? span.kind;
 }
 
-/// Draws all lanes. `look`: { context, width, left, stretch, course, now, failed_ns, hover, mark, find }.
+/// Draws all lanes. `look`: { context, width, left, dots, stretch, course, now, failed_ns, hover, mark, find }.
 export function drawLanes(lanes, look) {
-  const { context, width, left, stretch: [from, to], course } = look;
+  const { context, width, left, dots, stretch: [from, to], course } = look;
   const style = getComputedStyle(context.canvas);
   const colour = (name) => style.getPropertyValue(name).trim();
   const height = heightOf(lanes);
-  const x = (time) => left + (time - from) / (to - from) * (width - left);
+  const x = (time) => left + (time - from) / (to - from) * dots;
   context.clearRect(0, 0, width, height);
   context.font = '12px system-ui, sans-serif';
   context.textBaseline = 'middle';

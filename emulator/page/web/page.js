@@ -1,5 +1,5 @@
 // The page: a header with the time, tabs, and the visible panel.
-import { html, render } from './preact.js';
+import { html, render, useEffect } from './preact.js';
 import { ask, askQuietly, complain, draw, drawBy, hasPower, isAltered, isReadOnly, show, store } from './store.js';
 import { Button, Choice, Field, exactly, seconds } from './small.js';
 import { Axes } from './axes.js';
@@ -153,6 +153,7 @@ function Page() {
     setPanel(next);
     document.getElementById(`tab_${next}`)?.focus();
   };
+  useEffect(() => { document.getElementById(`tab_${panel}`)?.scrollIntoView({ block: 'nearest', inline: 'center' }); }, [panel]);
   const isLost = store.link !== '' || ['gone', 'silent'].includes(store.states[store.number]);
   return html`<div class="top"><header class="head">
       <h1>Understudy</h1>

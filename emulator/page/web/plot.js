@@ -246,7 +246,7 @@ function Scope({ shot, show }) {
   const disarm = async () => { await ask({ do: 'scope', off: true }); sayScope(''); };
   const waits = state === 'armed' || state === 'triggered';
   return html`<div class="bar"><span>Every tick around a moment:</span>
-    <input aria-label="condition of the trigger" placeholder="when, such as device.A.home == 1; now" size="34"
+    <input aria-label="condition of the trigger" placeholder="when, such as device.A.home == 1; now" size="36"
       disabled=${isLocked()} value=${condition} onInput=${(event) => setCondition(event.target.value)} spellcheck=${false} autocapitalize="off"
       onKeyDown=${(event) => { if (event.key === 'Enter') arm(event.target.value); }} />
     <${Choice} label="time before and after the trigger" value=${side} options=${['100ms', '500ms', '1s', '2s', '5s'].map((it) => [it, `± ${it}`])} takes=${setSide} />

@@ -1,6 +1,6 @@
 // The rail of an axis shows its travel, its switches, its position and target, and where the controller believes it to
 // be.
-import { html, useState } from './preact.js';
+import { html, useRef, useState } from './preact.js';
 import { store, valueOf } from './store.js';
 import { grouped, isOn, spaced } from './small.js';
 
@@ -58,22 +58,27 @@ function encoderPlace(machine, counts) {
 /// rail of this width.
 function Carriage({ x, slip, perDot }) {
   const [drag, setDrag] = useState(null);  // where it was grabbed, and how far it is from there, in pixels
+  const hand = useRef(null);  // the same at once: a fast hand is ahead of the drawing
+  const hold = (to) => { hand.current = to; setDrag(to); };
   const rail = (event) => event.currentTarget.closest('.rail');
-  const pulses = drag && drag.rail ? Math.round((drag.to - drag.from) * perDot(drag.rail.clientWidth)) : 0;
+  const pulsesOf = (it) => (it && it.rail ? Math.round((it.to - it.from) * perDot(it.rail.clientWidth)) : 0);
+  const pulses = pulsesOf(drag);
   const take = (event) => {
     if (!slip || event.button !== 0) return;
     event.currentTarget.setPointerCapture(event.pointerId);
     // A small movement does not push: it may be scrolling, or a tremor.
-    setDrag({ rail: rail(event), from: event.clientX, to: event.clientX, slack: event.pointerType === 'mouse' ? 5 : 20 });
+    hold({ rail: rail(event), from: event.clientX, to: event.clientX, slack: event.pointerType === 'mouse' ? 5 : 20 });
   };
-  const move = (event) => { if (drag) setDrag({ ...drag, to: event.clientX }); };
-  const letGo = () => {
-    setDrag(null);
-    if (drag && Math.abs(drag.to - drag.from) > drag.slack && pulses !== 0) slip(pulses);
+  const move = (event) => { if (hand.current) hold({ ...hand.current, to: event.clientX }); };
+  const letGo = (event) => {
+    move(event);
+    const last = hand.current;
+    hold(null);
+    if (last && Math.abs(last.to - last.from) > last.slack && pulsesOf(last) !== 0) slip(pulsesOf(last));
   };
   return html`<svg x=${x}><path class="hair" d="M0 12 v54" />
     <path class=${`carriage ${slip ? 'pushable' : ''}`} d="M0 31 l-9 -19 h18 z" onPointerDown=${take} onPointerMove=${move}
-      onPointerUp=${letGo} onPointerCancel=${() => setDrag(null)}>${slip && html`<title>drag it to make the carriage slip</title>`}</path>
+      onPointerUp=${letGo} onPointerCancel=${() => hold(null)}>${slip && html`<title>drag it to make the carriage slip</title>`}</path>
     ${drag && html`<g transform=${`translate(${drag.to - drag.from} 0)`}><path class="ghost" d="M0 30 l-9 -18 h18 z" />
       <text y="9">${pulses > 0 ? '+' : ''}${grouped(pulses)}</text></g>`}
   </svg>`;

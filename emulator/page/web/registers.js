@@ -143,7 +143,7 @@ export function Registers() {
       <${Choice} label="section of the manual" value=${section} disabled=${isMixed}
         options=${device.sections.map((it) => [String(it.number), `${titleOf(it)} (${it.rows})`])}
         takes=${(number) => { setSection(number); setFrom(0); }} />
-      <input type="search" aria-label="find a register by name, number or meaning" placeholder="find: name, number, meaning" value=${find}
+      <input type="search" aria-label="find a register by name, number or meaning" placeholder="find: name, number, meaning" size="26" value=${find}
         onInput=${(event) => { setFind(event.target.value); setFrom(0); }} />
       <label class="check"><input type="checkbox" checked=${onlyHeard} onChange=${(event) => { setHeard(event.target.checked); setFrom(0); }} />
         only what the host uses</label>

@@ -15,6 +15,7 @@ const kLive_ns = 30e9;
 const kFirst_ns = 2e9;
 const kShortest_ns = 1e5;
 const kPause_ms = 120;
+const kEdge = 8;  // dots to the right of the last moment, so that what happened there is whole
 const kBetweenWaits_ms = 500;
 
 /// The whole recording, or all that is kept.
@@ -138,7 +139,7 @@ export function Timeline() {
   const [width, setWidth] = useState(0);
   const canvas = useRef(null);
   const left = width < 600 ? 0 : 168;
-  const dots = Math.max(0, width - left);
+  const dots = Math.max(0, width - left - kEdge);
   const names = namesOf(devices);
   const isRecording = store.timeline !== null;
   const stretch = chosen ? within(chosen) : isRecording ? whole() : present();
@@ -160,7 +161,7 @@ export function Timeline() {
     return undefined;
   }, [isRecording, names.join(), store.bench]);
 
-  const time = (x) => stretch[0] + (Math.max(0, x - left)) / Math.max(dots, 1) * (stretch[1] - stretch[0]);
+  const time = (x) => stretch[0] + Math.max(0, Math.min(dots, x - left)) / Math.max(dots, 1) * (stretch[1] - stretch[0]);
   const zoom = (factor, about = (stretch[0] + stretch[1]) / 2) =>
     setStretch(within([about - (about - stretch[0]) * factor, about + (stretch[1] - about) * factor]));
   const pan = (by) => setStretch(within([stretch[0] + by, stretch[1] + by]));
@@ -194,7 +195,7 @@ export function Timeline() {
     }
     const context = box.getContext('2d');
     context.setTransform(dense, 0, 0, dense, 0, 0);
-    drawLanes(lanes, { context, width, left, stretch, course, find: find.trim(), mark, hover: tip?.time, now: isRecording ? store.look?.time_ns : undefined,
+    drawLanes(lanes, { context, width, left, dots, stretch, course, find: find.trim(), mark, hover: tip?.time, now: isRecording ? store.look?.time_ns : undefined,
       failed_ns: store.timeline?.story?.time_ns });
   });
 

@@ -61,7 +61,7 @@ export function Travel() {
         title=${`${steps < 0 ? 'back' : 'forward'} by one ${by}`} does=${() => seek({ by, steps })}>${sign}<//>`)}
       <small>${seconds(begin_ns)} to ${seconds(end_ns)}</small>
       ${marks.length > 0 && html`<${Choice} label="jump to an event" value="" disabled=${locked}
-        options=${[['', `${marks.length} marks`], ...marks.map((mark, i) => [String(i), sayMark(mark)])]}
+        options=${[['', marks.length === 1 ? '1 mark' : `${marks.length} marks`], ...marks.map((mark, i) => [String(i), sayMark(mark)])]}
         takes=${(i) => i !== '' && seek({ to_ns: marks[Number(i)].time_ns })} />`}
       ${timeline.marks_left_out > 0 && html`<small>and ${timeline.marks_left_out} more that are not shown</small>`}
     </div>

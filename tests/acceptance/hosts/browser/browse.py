@@ -16,6 +16,18 @@ import firefox
 
 PANELS = ['Axes', 'Signals', 'Plot', 'Timeline', 'Registers', 'Bus', 'Program', 'Events', 'Faults']
 PATIENCE_S = 20
+# The texts and hints that their boxes cut off.
+CUT = """
+const isSeen = (it) => it.getBoundingClientRect().width > 0 && !it.closest('details:not([open])');
+const isCut = (it) => getComputedStyle(it).overflowX !== 'visible' && it.scrollWidth > it.clientWidth + 1 && it.clientWidth > 0;
+const pen = document.createElement('canvas').getContext('2d');
+const isShort = (it) => {
+  const style = getComputedStyle(it);
+  pen.font = `${style.fontSize} ${style.fontFamily}`;
+  return !it.value && pen.measureText(it.placeholder).width > it.clientWidth - parseFloat(style.paddingLeft) - parseFloat(style.paddingRight) + 1;
+};
+return [...document.querySelectorAll('#panel small, #panel button, #panel code, #panel b')].filter((it) => isSeen(it) && isCut(it)).map((it) => it.textContent)
+  .concat([...document.querySelectorAll('#panel input[placeholder]')].filter((it) => isSeen(it) && isShort(it)).map((it) => it.placeholder))"""
 
 
 def browser(width, height, dark, folder):
@@ -119,6 +131,8 @@ def look_at_panels(visit):
             visit.until('registers have values', lambda: any(text.strip(' –') for text in visit.texts('.registers .value')))
         time.sleep(0.5)
         visit.picture(panel.lower())
+        if cut := visit.driver.execute_script(CUT):
+            fail(f'{visit.name}: {panel} cuts off: {cut}')
         width = visit.driver.execute_script('return document.documentElement.scrollWidth - innerWidth')
         if width > 0:
             fail(f'{visit.name}: {panel} is {width} dots wider than the window')

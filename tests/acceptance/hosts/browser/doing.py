@@ -33,6 +33,7 @@ def enter(visit, label, text):
 
 
 def select(visit, label, value):
+    visit.until(f'there is a choice: {label}', lambda: visit.find(f'select[aria-label="{label}"]'))
     chosen = visit.find(f'select[aria-label="{label}"]')[0]
     visit.driver.execute_script("arguments[0].value = arguments[1]; arguments[0].dispatchEvent(new Event('change', { bubbles: true }))",
                                 chosen, value)
@@ -60,12 +61,12 @@ def axes(visit, stage):
     visit.until('until it does', lambda: unused() == ['wired, not used: DIN3_Aaxis_DN_Limit = 0'])
     stage.host_writes(0x0A06, 0)
     stage.host_writes(0x1014, 1)
-    stage.host_writes(0x1000, 30000, 0, 60, 5, 5, 1)  # 30,000 pulses
+    stage.host_writes(0x1000, 30000, 0, 20, 5, 5, 1)  # 30,000 pulses, which take half a minute
     visit.until('the target is told', lambda: any('30,000' in text for text in visit.texts('.reading')) and visit.find('.rail .target'))
     visit.picture('target')
     visit.press('break feeder.A')
     select(visit, 'kind of fault', 'lost_steps')
-    visit.until('the form asks how many', lambda: visit.find('.fault_form .fields input'))
+    visit.until('the form asks how many', lambda: visit.texts('.fault_form .fields label span') == ['one in *'])
     visit.find('.fault_form .fields input')[0].send_keys('10')
     visit.find('.fault_form button[type=submit]')[0].click()
     visit.until('steps are lost', lambda: 'lost' in ' '.join(visit.texts('.axis .lamps')) and stage.value('feeder.A.lost') > 0)
@@ -80,7 +81,7 @@ def axes(visit, stage):
     visit.press('break feeder.A')
     select(visit, 'kind of fault', 'slip')
     before = stage.value('feeder.A.position')
-    visit.until('a slip asks how far', lambda: visit.find('.fault_form .fields input'))
+    visit.until('a slip asks how far', lambda: visit.texts('.fault_form .fields label span') == ['pulses *'])
     visit.find('.fault_form .fields input')[0].send_keys('-500')
     visit.find('.fault_form button[type=submit]')[0].click()
     visit.until('the carriage has slipped', lambda: stage.value('feeder.A.position') == before - 500)
@@ -208,6 +209,10 @@ def bus(visit, stage):
             browse.fail(f'a {side} was to be dropped: {stage.value("feeder.Aaxis_Speed")}')
         visit.find('button[title^="clear fault"]')[0].click()
         visit.until('and mended', lambda: not browse.control(visit.arguments, 'list')['faults'])
+    select(visit, "which of the next frames a row's button drops", '3')
+    visit.press('drop the 3rd next reply like this')
+    visit.until('a later one can be dropped too', lambda: any('nth=3' in it['fault'] for it in browse.control(visit.arguments, 'list')['faults']))
+    browse.control(visit.arguments, 'clear')
     stage.host_tries(0x1002, 60000)
     visit.until('an exception stands out', lambda: visit.find('.frames tr.bad'))
     select(visit, 'which frames', 'exceptions')
@@ -283,7 +288,10 @@ def faults(visit, stage):
     visit.find('.fault_form .check input')[0].click()
     visit.until('the trigger has fields', lambda: len(visit.find('.fault_form .fields label')) > 4)
     field = lambda name: next(it for it in visit.find('.fault_form .fields label') if it.text.split('\n')[0] == name)
+    if field('of').find_element(By.CSS_SELECTOR, 'select').get_attribute('value') != 'reply':
+        browse.fail('the form does not show which side is dropped')
     field('function').find_element(By.CSS_SELECTOR, 'input').send_keys('6')
+    visit.until('the form says what it will inject', lambda: visit.texts('.fault_form .will') == ['drop feeder function=6'])
     visit.find('.fault_form button[type=submit]')[0].click()
     visit.until('a fault waits', lambda: any('function' in text for text in visit.texts('.scroll td')))
     stage.host_tries(0x1002, 201)
@@ -325,7 +333,7 @@ def keeps(visit, stage):
     value = lambda selector: visit.find(selector)[0].get_attribute('value')
     visit.press('break feeder.A')
     select(visit, 'kind of fault', 'slip')
-    visit.until('a slip asks how far', lambda: visit.find('.fault_form .fields input'))
+    visit.until('a slip asks how far', lambda: visit.texts('.fault_form .fields label span') == ['pulses *'])
     visit.find('.fault_form .fields input')[0].send_keys('-77')
     visit.show('Signals')
     visit.find('input[aria-label^="set AIN_A"]')[0].send_keys('12')
