@@ -132,7 +132,7 @@ CaseEnd end_of(const play::ScenarioResult& result) {
 }
 
 bool OptionCase::is_telling() const {
-  for (const auto& [option, ending] : rehearsed)
+  for (const auto& [one, ending] : rehearsed)
     for (const auto& [other, its_ending] : rehearsed)
       if (ending && its_ending && !are_alike(*ending, *its_ending)) return true;
   return false;
