@@ -148,8 +148,12 @@ class Course final : public play::HostCommand {
       for (auto& variable : host_time_->environment()) command.environment.push_back(std::move(variable));
     }
     child_.emplace(daemon_.loop(), signals_, command, [this] { on_command_over(); });
+    if (host_time_) host_time_->command_began(child_->process());
     signals_.watch(daemon_.loop(), [this](int signal_number) {
-      if (signal_number == SIGCHLD) return child_->look_after_children();
+      if (signal_number == SIGCHLD) {
+        if (host_time_) host_time_->look_at_command();
+        return child_->look_after_children();
+      }
       end_.was_interrupted = true;
       end_command(signal_number);
       if (is_command_over_) give_up_scenario();

@@ -222,6 +222,20 @@ for least, sizes in ((7, [3, 90]), (7, [0, 1, 2, 0, 4]), (3, [2, 1])):
   EXPECT_EQ(host.output, "7 010302c0012984\n7 010302c0012984\n3 010302\nc0012984\n") << host.errors;
 }
 
+// From the end of the command on, no time passes, whatever it has left behind.
+TEST_F(HostTime, EndsWithItsCommand) {
+  const std::string spin = "while :; do :; done";
+  const Process load({"sh", "-c", spin});
+  for (int run = 0; run < 12; ++run) {
+    const Finished host =
+        exec({"sh", "-c", "sleep 1; (sleep 100; date) & echo hi"}, {"--record", folder() / "recording"});
+    EXPECT_EQ(host.exit_code, 0) << host.errors;
+    EXPECT_EQ(host.output, "hi\n");
+    EXPECT_EQ(host.errors.find("did not load"), std::string::npos) << host.errors;
+    EXPECT_NE(text_of(folder() / "recording").find("\n{\"t\":1000000000,\"do\":\"end\""), std::string::npos);
+  }
+}
+
 TEST_F(HostTime, EndsWaitsForQueuesAndForSocketsWithATimeout) {
   const Finished host = python_twice(R"(
 import ctypes, os, socket, struct, time

@@ -116,6 +116,26 @@ void HostTasks::watch_end(int process, Descriptor descriptor) {
   processes_.emplace(process, std::move(descriptor));
 }
 
+void HostTasks::set_command(int process) {
+  command_ = Descriptor(static_cast<int>(syscall(SYS_pidfd_open, process, 0)));
+}
+
+bool HostTasks::has_command_ended() const { return command_ && has_ended(command_); }
+
+void HostTasks::note_ends() {
+  std::vector<int> ended;
+  for (const auto& [process, descriptor] : processes_) {
+    if (has_ended(descriptor)) ended.push_back(process);
+  }
+  for (const int process : ended) {
+    const auto found = processes_.find(process);
+    if (found == processes_.end()) continue;
+    loop_.unwatch(found->second.get());
+    processes_.erase(found);
+    ended_(process);
+  }
+}
+
 std::vector<int> HostTasks::children_of(int task) {
   Descriptor& file = files_[task].children;
   std::string numbers;

@@ -29,6 +29,11 @@ class HostTasks {
   HostTasks& operator=(const HostTasks&) = delete;
 
   void add(int process);
+  /// Reports the processes that have ended now, before the loop does.
+  void note_ends();
+  void set_command(int process);
+  /// Returns true if the command itself has ended, which may have left processes behind.
+  bool has_command_ended() const;
   bool knows(int process) const { return processes_.contains(process); }
   /// Returns true if the host has a single thread.
   bool is_one_thread();
@@ -69,6 +74,7 @@ class HostTasks {
   Task look_at(int process, int task);
   bool read_tasks(Tasks& tasks, std::optional<int> except);
 
+  Descriptor command_;  // of its process; reports its end
   EventLoop& loop_;
   std::function<void(int)> ended_;
   std::map<int, Descriptor> processes_;  // each with a descriptor that reports its end

@@ -3,16 +3,13 @@
 #include <poll.h>
 #include <sys/socket.h>
 #include <sys/timerfd.h>
-#include <sys/uio.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <chrono>
 #include <cstdint>
 #include <cstdlib>
-#include <cstring>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -27,6 +24,7 @@
 #include "base/simulated_time.h"
 #include "emulator/serve/daemon/daemon.h"
 #include "emulator/serve/host_time/host_library.h"
+#include "emulator/serve/host_time/host_message.h"
 #include "emulator/serve/host_time/host_waits.h"
 #include "emulator/serve/host_time/simulated_task.h"
 #include "emulator/serve/loop/event_loop.h"
@@ -63,26 +61,7 @@ void set_timer(const Descriptor& timer, WallTime after, WallTime interval = Wall
   timerfd_settime(timer.get(), 0, &setting, nullptr);
 }
 
-/// Receives a message, and the descriptor sent with it, if any.
-ssize_t receive_message(int socket, host_time::Message& message, Descriptor& passed) {
-  iovec part{&message, sizeof message};
-  alignas(cmsghdr) std::array<char, CMSG_SPACE(sizeof(int))> control{};
-  msghdr header{};
-  header.msg_iov = &part;
-  header.msg_iovlen = 1;
-  header.msg_control = control.data();
-  header.msg_controllen = control.size();
-  const ssize_t size = recvmsg(socket, &header, MSG_DONTWAIT | MSG_CMSG_CLOEXEC);
-  const cmsghdr* const attached = size < 0 ? nullptr : CMSG_FIRSTHDR(&header);
-  if (attached != nullptr && attached->cmsg_type == SCM_RIGHTS) {
-    int descriptor = -1;
-    std::memcpy(&descriptor, CMSG_DATA(attached), sizeof descriptor);
-    passed = Descriptor(descriptor);
-  }
-  return size;
-}
-
-/// Returns the number of the port's pseudo-terminal, or -1 if there is none.
+/// Returns the number of the port's pseudo-terminal, or -1 if it has none.
 int terminal_of(const Port& port) {
   if (port.terminal() == nullptr) return -1;
   const std::string& path = port.terminal()->path();  // /dev/pts/N
@@ -255,6 +234,14 @@ std::optional<int> HostTime::lone_speaker() const {
   return thread.thread;
 }
 
+void HostTime::look_at_command() {
+  if (is_host_to_end_ || !tasks_.has_command_ended()) return;
+  receive_all();
+  tasks_.note_ends();
+  judge_end_of(greetings_.first_process());
+  host_is_to_end();
+}
+
 bool HostTime::is_host_asleep() {
   if (is_host_over_) return true;
   if (must_poll_) tasks_.any_may_continue();
@@ -264,6 +251,8 @@ bool HostTime::is_host_asleep() {
   // so unread messages are checked last.
   const bool is_alone = speaker && tasks_.is_one_thread();
   if ((!is_alone && !tasks_.are_all_asleep(speaker)) || has_unread_messages()) return false;
+  // From the end of the command on, time no longer passes, although what it has left behind may still wait.
+  if (tasks_.has_command_ended()) return false;
   must_poll_ = false;
   was_asleep_ = true;
   return true;

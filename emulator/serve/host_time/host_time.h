@@ -46,6 +46,11 @@ class HostTime {
   /// Lets time advance only while the task also waits, from now on. The task must outlive this object, or be
   /// removed by passing null.
   void run_beside(SimulatedTask* task);
+  /// Must be called when the command has begun: time passes until this process ends.
+  void command_began(int process) { tasks_.set_command(process); }
+  /// Must be called when the command may have ended, before the processes that it leaves behind are ended
+  /// too.
+  void look_at_command();
   /// Call this when a signal is about to end the host: waiting threads may wake up, and processes may end
   /// before they have greeted the bench.
   void host_is_to_end() { must_poll_ = is_host_to_end_ = true; }

@@ -50,6 +50,8 @@ class Child {
   /// Sends a signal to the group. Processes that still exist after kGrace are killed.
   void end_with(int signal_number);
 
+  /// Returns the number of the command's process.
+  int process() const { return pid_; }
   /// Returns the exit code of the command, or 128 + n if signal n ended it.
   int exit_code() const { return exit_code_; }
   /// Returns true if the command was told to end, or was ended by a signal.
