@@ -222,6 +222,38 @@ for least, sizes in ((7, [3, 90]), (7, [0, 1, 2, 0, 4]), (3, [2, 1])):
   EXPECT_EQ(host.output, "7 010302c0012984\n7 010302c0012984\n3 010302\nc0012984\n") << host.errors;
 }
 
+// The clock of the bench is paused. What another command advances ends the host's waits when they are over.
+TEST_F(HostTime, EndsWaitsInAnAdvanceByHand) {
+  const std::string ctl = std::string(UNDERSTUDY_BINARY) + " ctl ";
+  const std::string advances = ctl + "advance 1500ms && " + ctl +
+                               "run-until --within 10s 'feeder.DIN_3 == 1' >/dev/null && echo met; " + ctl +
+                               "advance 1s; " + ctl + "resume >/dev/null";
+  const std::string now = "date -u +%T.%N; ";
+  const std::string host_script = ctl + "pause >/dev/null; (" + advances + ") & sleep 1; " + now +
+                                  "sleep 1; " + now + ctl + "input feeder.DIN_3 on >/dev/null; sleep 5; " +
+                                  now + "wait";
+  for (int run = 0; run < 3; ++run) {
+    const Finished host = exec({"sh", "-c", host_script}, {"--timeout", "60s"});
+    EXPECT_EQ(host.exit_code, 0) << host.errors;
+    EXPECT_EQ(host.output.substr(0, host.output.find("met")),
+              "00:00:01.000000000\nsimulated time 1.5s\n00:00:02.000000000\n")
+        << host.errors;
+    EXPECT_NE(host.output.find("00:00:07.000000000\n"), std::string::npos) << host.output << host.errors;
+  }
+}
+
+// An advance to the very end of a wait ends it, and the clock then stands.
+TEST_F(HostTime, ActsAtTheEndOfAnAdvance) {
+  const std::string ctl = std::string(UNDERSTUDY_BINARY) + " ctl ";
+  const Finished host = exec({"sh", "-c",
+                              ctl + "pause >/dev/null; (" + ctl + "advance 1s; " + ctl +
+                                  "advance 1s) & sleep 1; date -u +%T; sleep 1; date -u +%T; wait"},
+                             {"--timeout", "60s"});
+  EXPECT_EQ(host.exit_code, 0) << host.errors;
+  EXPECT_NE(host.output.find("00:00:01\n"), std::string::npos) << host.output;
+  EXPECT_NE(host.output.find("00:00:02\n"), std::string::npos) << host.output;
+}
+
 // From the end of the command on, no time passes, whatever it has left behind.
 TEST_F(HostTime, EndsWithItsCommand) {
   const std::string spin = "while :; do :; done";

@@ -253,16 +253,16 @@ bool Daemon::advance(SimTime duration, std::function<void()> done, std::function
   return true;
 }
 
-/// Advances tick by tick, for at most one slice of wall time. When the condition becomes true, the present
-/// becomes the target.
-void Daemon::work_towards_condition() {
+/// Advances tick by tick, for a slice of wall time at most. When the condition becomes true, the target moves
+/// to the present.
+void Daemon::work_towards_condition(SimTime limit) {
   const WallTime until = wall_now() + kWorkSlice;
-  while (world_.now() < advance_target_ && wall_now() < until && !is_held()) {
+  while (world_.now() < std::min(limit, advance_target_) && wall_now() < until && !is_held()) {
     if (advance_is_met_()) {
       advance_target_ = world_.now();
       return;
     }
-    world_.advance_to(std::min(advance_target_, time_of(tick_at(world_.now()) + 1)));
+    world_.advance_to(std::min({limit, advance_target_, time_of(tick_at(world_.now()) + 1)}));
     if (is_held()) return;
     if (waits_for_hosts()) return;
   }
@@ -289,13 +289,17 @@ bool Daemon::waits_for_hosts() {
   return waits;
 }
 
-void Daemon::work_on_advance() {
+void Daemon::work_on_advance(SimTime limit) {
   if (advance_is_met_) {
-    work_towards_condition();
+    work_towards_condition(limit);
   } else {
-    work_towards(advance_target_, wall_now() + kWorkSlice);
+    work_towards(std::min(limit, advance_target_), wall_now() + kWorkSlice);
   }
   pacer_.moved_to(world_.now(), wall_now());
+}
+
+void Daemon::go_on_with_advance() {
+  if (world_.now() < advance_target_) advance_driver_ ? advance_driver_() : work_on_advance(advance_target_);
   if (world_.now() < advance_target_) return;
   // The line's output is sent before the caller learns that the advance is over.
   for (const auto& port : ports_) port->flush();
@@ -342,7 +346,7 @@ void Daemon::wait() {
   // An advance is work in progress, not a planned wake-up. The same applies to catching up: its lateness
   // counts from its beginning, not from the remaining simulated time, which may include a long sleep.
   planned_ = advance_done_ ? std::nullopt : behind_since_ ? behind_since_ : next_wake();
-  std::optional<WallTime> wake = advance_done_ ? WallTime{0} : planned_;
+  std::optional<WallTime> wake = advance_done_ && !advance_driver_ ? WallTime{0} : planned_;
   if (waits_for_hosts()) wake = wall_now() + kReadingTime;
   for (const auto& port : ports_) {
     const auto next = port->next_poll(pacer_.standing());
@@ -363,7 +367,7 @@ void Daemon::run() {
     wait();
     if (stopping_) break;
     if (advance_done_) {
-      work_on_advance();
+      go_on_with_advance();
     } else if (planned_) {
       catch_up();
     }

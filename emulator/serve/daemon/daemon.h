@@ -99,7 +99,12 @@ class Daemon {
   /// called at the end of every tick), then calls `done`. Returns false while the clock is running or another
   /// advance is in progress.
   bool advance(SimTime duration, std::function<void()> done, std::function<bool()> is_met = {});
-  /// Advances simulated time to `time` before returning. The clock must be stopped, and no advance in
+  /// From now on `driver` is called until an advance is over, and calls work_on_advance() whenever time may
+  /// pass. Without one, time may always pass.
+  void set_advance_driver(std::function<void()> driver) { advance_driver_ = std::move(driver); }
+  /// Works on the advance in progress, for a few milliseconds, and not beyond `limit`.
+  void work_on_advance(SimTime limit);
+  /// Advances simulated time to `time` before it returns. The clock must be stopped, and no advance in
   /// progress.
   void advance_at_once(SimTime time) {
     world_.advance_to(time);
@@ -136,11 +141,11 @@ class Daemon {
   void catch_up(WallTime longest);
   bool work_towards(SimTime target, WallTime until);
   bool is_held();
-  void work_on_advance();
+  void go_on_with_advance();
   bool makes_time_go() const;
   bool waits_for_hosts();
   SimTime longest_step() const;
-  void work_towards_condition();
+  void work_towards_condition(SimTime limit);
   std::optional<WallTime> next_wake() const;
   void wait();
 
@@ -175,7 +180,8 @@ class Daemon {
 
   SimTime advance_target_{0};
   std::function<bool()> advance_is_met_;  // may be empty
-  std::function<void()> advance_done_;    // set while an advance is in progress
+  std::function<void()> advance_driver_;
+  std::function<void()> advance_done_;  // set while an advance is in progress
 };
 
 }  // namespace understudy::emulator::serve

@@ -110,12 +110,14 @@ HostTime::HostTime(Daemon& daemon, const std::string& place, std::function<void(
     });
   };
   daemon_.observers().waits.add_source([this] { return log_.under_way(waits_, line_counts()); });
+  daemon_.set_advance_driver([this] { consider(); });
   on_timer(next_poll_, [this] { consider(); });
   on_timer(watch_, [this] { watch_over(); });
   set_timer(watch_, kWatch, kWatch);
 }
 
 HostTime::~HostTime() {
+  daemon_.set_advance_driver({});
   daemon_.observers().waits.add_source({});
   for (const auto& [number, descriptor] : connections_) daemon_.loop().unwatch(number);
   daemon_.loop().unwatch(next_poll_.get());
@@ -325,13 +327,14 @@ std::optional<SimTime> HostTime::next_stop() const {
 }
 
 bool HostTime::may_time_go() const {
-  if (is_host_over_) return task_ != nullptr && task_->next_act();
+  if (is_host_over_) return daemon_.is_advancing() || (task_ != nullptr && task_->next_act());
   return (waits_.is_any_waiting() || timers_.next()) && !waits_.is_any_outside();
 }
 
 void HostTime::consider() {
   if (!may_time_go()) return;
-  if (daemon_.is_advancing() || daemon_.pacer().paused() || !is_host_asleep()) return poll_again();
+  const bool is_advance = daemon_.is_advancing();
+  if ((daemon_.pacer().paused() && !is_advance) || !is_host_asleep()) return poll_again();
   patience_ = WallTime{0};
   const WallTime until = wall_now() + kSlice;
   while (true) {
@@ -349,16 +352,29 @@ void HostTime::consider() {
       if (port->is_in_doubt()) return poll_again();
     }
     const auto stop = next_stop();
-    if (!stop) return;
+    if (!stop && !is_advance) return;
     has_moved_ = true;
     if (!is_host_over_) log_.begin(waits_, line_counts(), daemon_.world().now());
-    daemon_.advance_at_once(*stop);
+    if (is_advance) {
+      daemon_.work_on_advance(stop.value_or(kHorizon));
+    } else {
+      daemon_.advance_at_once(*stop);
+    }
     log_.end(line_counts(), daemon_.world().now());
-    if (wall_now() >= until) {
+    if (is_advance) let_host_act();
+    if (is_advance || wall_now() >= until) {
       set_timer(next_poll_, WallTime{1});
       return;
     }
   }
+}
+
+/// Ends the waits that are over now. An advance may end here, and the clock stop: the host gets its turn
+/// first.
+void HostTime::let_host_act() {
+  page_.set_now(daemon_.world().now());
+  give_to_host();
+  expire_timers();
 }
 
 void HostTime::run_beside(SimulatedTask* task) {

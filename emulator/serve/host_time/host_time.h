@@ -77,6 +77,7 @@ class HostTime {
   void take_from_host();
   bool give_to_host();
   bool expire_timers();
+  void let_host_act();
   std::optional<SimTime> next_stop() const;
   void watch_over();
   HostWaitLog::Lines line_counts() const;
