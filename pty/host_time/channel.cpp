@@ -421,6 +421,8 @@ void tell_timer(Message message, int descriptor) {
   errno = error;
 }
 
+void tell_watch(Message message) { tell_timer(message, -1); }
+
 void tell_child(int process, bool is_another_program) {
   const int error = errno;
   Message message = message_of(MessageKind::child);

@@ -55,6 +55,9 @@ struct Page {
   Door doors[kMaxDoors];
 };
 
+/// What the target of a watch is. The kernel's F_OWNER_... have these values.
+enum WatchOwner : int64_t { owner_thread = 0, owner_process = 1, owner_group = 2 };
+
 enum class MessageKind : uint32_t {
   // the host's thread
   hello = 1,  // the first message; `sequence` is the version; `value` is 1 from a program that begins
@@ -66,6 +69,8 @@ enum class MessageKind : uint32_t {
   outside,    // the thread waits for something that is not simulated: time must stop; no answer
   inside,     // that wait is over; no answer
   timer,  // the timer `sequence` of this process: first at `until_ns`, then every `interval_ns`; no answer
+  watch,  // the line in `lines` sends the signal `signal` to `target` when a byte arrives; 0: no longer; no
+          // answer
   // the bench
   go,         // the wait `sequence` is over
   cancelled,  // no further message about the wait `sequence` will follow
@@ -73,10 +78,10 @@ enum class MessageKind : uint32_t {
 
 struct Message {
   MessageKind what;
-  uint32_t sequence;  // the number of the thread's wait, of the timer, or the version
+  uint32_t sequence;  // the number of the thread's wait, of the timer, the watched descriptor, or the version
   int64_t until_ns;   // simulated time; kNever: without limit
   int64_t interval_ns;
-  int64_t value;  // of a timer: the value that comes with its signal
+  int64_t value;  // of a timer: the value that comes with its signal; of a watch: see WatchOwner
   int32_t process;
   int32_t thread;
   int32_t target;  // of a timer: the thread that gets its signal; 0: any of the process

@@ -114,6 +114,8 @@ void end_outside();
 
 /// Informs the bench of a timer's setting. The bench counts expirations in the descriptor, unless that is -1.
 void tell_timer(Message message, int descriptor);
+/// Informs the bench of a watch (watches.cpp).
+void tell_watch(Message message);
 /// Returns true if the descriptor is one of the timers in timers.cpp.
 bool is_timer(int descriptor);
 /// Forgets the parent's timers: a child process does not inherit them.

@@ -222,6 +222,56 @@ for least, sizes in ((7, [3, 90]), (7, [0, 1, 2, 0, 4]), (3, [2, 1])):
   EXPECT_EQ(host.output, "7 010302c0012984\n7 010302c0012984\n3 010302\nc0012984\n") << host.errors;
 }
 
+TEST_F(HostTime, SendsTheSignalOfALineWhenItsByteArrives) {
+  const Finished host = python_twice(R"(
+import fcntl, os, signal, termios, time, tty
+port = os.open(os.environ["UNDERSTUDY_PORT"], os.O_RDWR | os.O_NOCTTY)
+tty.setraw(port)
+settings = termios.tcgetattr(port)
+settings[4] = settings[5] = termios.B19200
+termios.tcsetattr(port, termios.TCSANOW, settings)
+got = []
+def note(number, frame):
+    got.append(number)
+for number in (signal.SIGIO, signal.SIGRTMIN + 1):
+    signal.signal(number, note)
+fcntl.fcntl(port, fcntl.F_SETOWN, os.getpid())
+plain = fcntl.fcntl(port, fcntl.F_GETFL)
+fcntl.fcntl(port, fcntl.F_SETFL, plain | os.O_ASYNC)
+print(fcntl.fcntl(port, fcntl.F_GETFL) == plain | os.O_ASYNC)
+def ask(asks=True):
+    os.write(port, bytes.fromhex("010300010001D5CA"))
+    answer = b""
+    began = time.monotonic()
+    while asks and len(answer) < 7:
+        signal.pause()
+        answer += os.read(port, 7)
+    print(answer.hex(), 0 < time.monotonic() - began < 0.05, set(got) - {signal.SIGALRM})
+    got.clear()
+    return began
+ask()
+ask()
+fcntl.fcntl(port, fcntl.F_SETSIG, signal.SIGRTMIN + 1)
+ask()
+fcntl.fcntl(port, fcntl.F_SETFL, plain)
+began = ask(False)
+signal.signal(signal.SIGALRM, note)
+signal.alarm(2)
+signal.pause()
+print(time.monotonic() - began, os.read(port, 7).hex())
+fcntl.fcntl(port, fcntl.F_SETFL, plain | os.O_ASYNC)
+os.close(port)
+port = os.open(os.environ["UNDERSTUDY_PORT"], os.O_RDWR | os.O_NOCTTY)
+print(fcntl.fcntl(port, fcntl.F_GETFL) == plain)
+)",
+                                     {"--timeout", "60s"});
+  EXPECT_EQ(
+      host.output,
+      "True\n010302c0012984 True {29}\n010302c0012984 True {29}\n010302c0012984 True {35}\n False set()\n"
+      "2.0 010302c0012984\nTrue\n")
+      << host.errors;
+}
+
 // The clock of the bench is paused. What another command advances ends the host's waits when they are over.
 TEST_F(HostTime, EndsWaitsInAnAdvanceByHand) {
   const std::string ctl = std::string(UNDERSTUDY_BINARY) + " ctl ";

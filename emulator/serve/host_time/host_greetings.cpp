@@ -27,6 +27,7 @@ void HostGreetings::on_message(const host_time::Message& message) {
     case MessageKind::outside:
     case MessageKind::inside:
     case MessageKind::timer:
+    case MessageKind::watch:
     case MessageKind::go:
     case MessageKind::cancelled: return;
   }

@@ -86,6 +86,7 @@ HostTime::HostTime(Daemon& daemon, const std::string& place, std::function<void(
                judge_end_of(process);
                waits_.process_ended(process);
                timers_.process_ended(process);
+               watches_.process_ended(process);
                consider();
              }),
       log_([this](int terminal) { return line_of(terminal); },
@@ -196,12 +197,13 @@ bool HostTime::on_message(int number) {
   }
   note_process(message);
   if (message.what == MessageKind::timer) timers_.set(message, std::move(passed));
+  if (message.what == MessageKind::watch) watches_.set(message);
   waits_.on_message(number, message);
   if (!connections_.contains(number)) return true;
   if (waits_.threads().at(number).state == HostState::gone) {
     drop(number);
   } else if (message.what == MessageKind::wait || message.what == MessageKind::inside ||
-             message.what == MessageKind::timer) {
+             message.what == MessageKind::timer || message.what == MessageKind::watch) {
     consider();
   }
   return true;
@@ -284,11 +286,12 @@ bool HostTime::give_to_host() {
     const int terminal = terminal_of(port);
     const std::uint64_t bytes_out = port.line().counters().bytes_out;
     const bool has_room = port.room() > 0;
-    const bool has_news =
-        terminal != seen.terminal || bytes_out != seen.bytes_out || (has_room && !seen.had_room);
+    const bool has_bytes = bytes_out != seen.bytes_out;
+    const bool has_news = terminal != seen.terminal || has_bytes || (has_room && !seen.had_room);
     const int before = std::exchange(seen, {terminal, bytes_out, has_room}).terminal;
     if (terminal != before) page_.set_line(i, terminal);
     if (has_news) has_ended = waits_.line_has_news(before) || has_ended;
+    if (has_bytes && watches_.line_has_news(before)) must_poll_ = has_ended = true;
     if (port.line().save().input.empty()) has_ended = waits_.line_is_drained(terminal) || has_ended;
   }
   has_ended = doors_.report_news(waits_) || has_ended;
@@ -317,7 +320,10 @@ std::optional<SimTime> HostTime::next_stop() const {
   if (const auto next = task_ != nullptr ? task_->next_act() : std::nullopt) not_beyond(*next);
   for (const auto& port : daemon_.ports()) {
     if (const auto full = port->time_until_full()) not_beyond(now + *full);
-    if (!waits_.is_line_waited_for(terminal_of(*port)) && !doors_.is_waited_for(*port, waits_)) continue;
+    const int terminal = terminal_of(*port);
+    if (!waits_.is_line_waited_for(terminal) && !watches_.is_watched(terminal) &&
+        !doors_.is_waited_for(*port, waits_))
+      continue;
     if (const auto due = port->line().due()) not_beyond(*due);
     const bool may_change = port->world_line().protocol.may_be_unasked() || !world.faults().empty();
     if (may_change && stop) not_beyond(time_of(tick_at(now) + 1));
@@ -328,7 +334,7 @@ std::optional<SimTime> HostTime::next_stop() const {
 
 bool HostTime::may_time_go() const {
   if (is_host_over_) return daemon_.is_advancing() || (task_ != nullptr && task_->next_act());
-  return (waits_.is_any_waiting() || timers_.next()) && !waits_.is_any_outside();
+  return (waits_.is_any_waiting() || timers_.next() || watches_.is_any()) && !waits_.is_any_outside();
 }
 
 void HostTime::consider() {
@@ -420,7 +426,8 @@ void HostTime::watch_over() {
   idle_polls_ = std::exchange(has_moved_, false) ? 0 : idle_polls_ + 1;
   if (idle_polls_ < kPollsBeforeReport || is_host_over_) return;
   const auto running = tasks_.running_one();
-  const bool is_outside = waits_.is_any_outside() || (!waits_.is_any_for_bench() && !timers_.next());
+  const bool is_outside =
+      waits_.is_any_outside() || (!waits_.is_any_for_bench() && !timers_.next() && !watches_.is_any());
   if (!running && is_outside && !std::exchange(has_reported_outside_, true)) {
     report_(
         "the host waits for something outside the bench, such as standard input or another machine, so the "

@@ -26,6 +26,7 @@
 #include "emulator/serve/host_time/host_timers.h"
 #include "emulator/serve/host_time/host_wait_log.h"
 #include "emulator/serve/host_time/host_waits.h"
+#include "emulator/serve/host_time/host_watches.h"
 #include "emulator/serve/host_time/simulated_task.h"
 #include "emulator/serve/loop/listener.h"
 
@@ -102,6 +103,7 @@ class HostTime {
   HostTasks tasks_;
   HostGreetings greetings_;
   HostTimers timers_;
+  HostWatches watches_;
   HostWaitLog log_;
   std::map<int, Descriptor> connections_;
   int listening_ = -1;  // the listener's socket

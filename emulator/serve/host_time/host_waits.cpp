@@ -45,6 +45,7 @@ void HostWaits::on_message(int number, const host_time::Message& message) {
     case host_time::MessageKind::leaves:
     case host_time::MessageKind::stays:
     case host_time::MessageKind::timer:
+    case host_time::MessageKind::watch:
     case host_time::MessageKind::go:
     case host_time::MessageKind::cancelled: return;
   }
