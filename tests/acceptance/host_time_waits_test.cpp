@@ -304,6 +304,34 @@ TEST_F(HostTime, ActsAtTheEndOfAnAdvance) {
   EXPECT_NE(host.output.find("00:00:02\n"), std::string::npos) << host.output;
 }
 
+// A stop holds the clock although the host waits, until somebody continues.
+TEST_F(HostTime, StandsAtABreakpoint) {
+  const PrivateFolder folder;
+  folder.write("count.s2", "again:  VAR_Inc VAR32\n        Delay_mSec 5\n        Jump again\n");
+  const std::string bench = folder.write("count.yaml",
+                                         "understudy: 1\nlines: { l: { stations: [ { name: feeder, model: "
+                                         "simple2-r3, program: count.s2 } ] } }\n");
+  const std::string control = folder / "control";
+  const std::string ctl = std::string(UNDERSTUDY_BINARY) + " ctl ";
+  const std::string script = ctl + "set feeder.PROG_MAIN_RunTime_START=0 >/dev/null; " + ctl +
+                             "break 2 nth=50 >/dev/null; sleep 1; date -u +%T";
+  Process host(
+      {UNDERSTUDY_BINARY, "exec", bench, "--host-time", "--control", control, "--", "sh", "-c", script});
+  const auto ask = [&](Words words) {
+    words.insert(words.begin(), "ctl");
+    words.insert(words.end(), {"--control", control});
+    return understudy(words).output;
+  };
+  ASSERT_TRUE(eventually([&] { return ask({"events"}).find("stop") != std::string::npos; })) << host.errors();
+  const std::string status = ask({"status"});
+  EXPECT_NE(status.find("paused"), std::string::npos) << status;
+  EXPECT_EQ(ask({"get", "feeder.PROG_VAR0"}), "feeder.PROG_VAR0 50\n");
+  EXPECT_NE(ask({"break", "delete", "all"}), "no answer");
+  ask({"continue"});
+  EXPECT_EQ(host.wait(kPatience), 0) << host.errors();
+  EXPECT_EQ(host.output(), "00:00:01\n");
+}
+
 // From the end of the command on, no time passes, whatever it has left behind.
 TEST_F(HostTime, EndsWithItsCommand) {
   const std::string spin = "while :; do :; done";

@@ -211,7 +211,7 @@ void continue_message(Daemon& daemon, const Json& message, const ControlServer::
     daemon.advance(within, [&daemon, reply] { reply(time_and_stop(daemon).dump()); });
     return;
   }
-  if (daemon.pacer().speed().kind == Speed::Kind::manual)
+  if (daemon.pacer().speed().kind == Speed::Kind::manual && !daemon.is_host_timed())
     throw MessageError("'within' is missing, and the speed is manual; expected a duration");
   daemon.resume();
   reply(Json{{"ok", true}, {"simulated_time_ns", daemon.world().now().count()}}.dump());

@@ -201,7 +201,8 @@ void Daemon::judge_stall(WallTime now) {
 bool Daemon::is_held() {
   if (!observers_.debugger.take_stop()) return false;
   if (advance_done_) advance_target_ = world_.now();
-  if (!pacer_.standing()) pacer_.pause(wall_now());
+  // At manual speed the clock is stopped anyway, unless the waits of a host move it.
+  if (!pacer_.standing() || is_host_timed()) pacer_.pause(wall_now());
   pacer_.moved_to(world_.now(), wall_now());
   behind_since_.reset();
   return true;

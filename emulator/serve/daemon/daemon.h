@@ -102,6 +102,10 @@ class Daemon {
   /// From now on `driver` is called until an advance is over, and calls work_on_advance() whenever time may
   /// pass. Without one, time may always pass.
   void set_advance_driver(std::function<void()> driver) { advance_driver_ = std::move(driver); }
+  /// Returns true if the waits of a host in simulated time move the clock.
+  bool is_host_timed() const { return advance_driver_ != nullptr; }
+  /// Holds the clock if the debugger has stopped the world. Returns true if so.
+  bool is_held();
   /// Works on the advance in progress, for a few milliseconds, and not beyond `limit`.
   void work_on_advance(SimTime limit);
   /// Advances simulated time to `time` before it returns. The clock must be stopped, and no advance in
@@ -140,7 +144,6 @@ class Daemon {
   void judge_stall(WallTime now);
   void catch_up(WallTime longest);
   bool work_towards(SimTime target, WallTime until);
-  bool is_held();
   void go_on_with_advance();
   bool makes_time_go() const;
   bool waits_for_hosts();

@@ -367,6 +367,7 @@ void HostTime::consider() {
       daemon_.advance_at_once(*stop);
     }
     log_.end(line_counts(), daemon_.world().now());
+    if (!is_advance && daemon_.is_held()) return poll_again();
     if (is_advance) let_host_act();
     if (is_advance || wall_now() >= until) {
       set_timer(next_poll_, WallTime{1});
