@@ -61,6 +61,14 @@ WireAddress address_of(const ListRow& row, const std::optional<PrintedAddress>& 
   row.fail(Column::address, quoted(row.text(Column::address)) + " is not an address; expected " + expected);
 }
 
+/// Returns true for a name that commands would take for "NAME=VALUE". Names such as "P>=C-" exist.
+bool has_lone_equals_sign(const std::string& name) {
+  for (std::size_t at = name.find('='); at != std::string::npos; at = name.find('=', at + 1)) {
+    if (at == 0 || (name[at - 1] != '<' && name[at - 1] != '>')) return true;
+  }
+  return false;
+}
+
 /// Returns true for words that have another meaning in expressions.
 bool is_taken_word(const std::string& name) {
   constexpr std::array<std::string_view, 7> kWords{"and", "or", "not", "true", "false", "on", "off"};
@@ -74,7 +82,8 @@ void read_name(const ListRow& row, ListedRegister& listed) {
   if (name.empty()) row.fail(Column::name, "is missing; expected a name in every row");
   const auto first = static_cast<unsigned char>(name[0]);
   const bool begins_well = std::isalpha(first) != 0 || first == '_' || first >= 0x80;
-  const bool is_plain = name.find_first_of(".{}\"=") == std::string::npos && one_line(name) == name;
+  const bool is_plain = name.find_first_of(".{}\"") == std::string::npos && one_line(name) == name &&
+                        !has_lone_equals_sign(name);
   listed.name = name;
   if (!begins_well || !is_plain || is_taken_word(name)) {
     listed.name = as_word(name);

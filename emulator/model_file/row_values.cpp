@@ -111,7 +111,9 @@ class RangeReader {
                     "; expected a maximum that is not below the minimum");
     }
     set_range(min, max);
-    const auto step = numbers.are_counts() ? step_of(row_) : std::nullopt;
+    // A list of this program has counts, and steps only in its units.
+    const bool may_be_in_unit = row_.has(Column::scale) || row_.has(Column::decimals);
+    const auto step = may_be_in_unit && numbers.are_counts() ? step_of(row_) : std::nullopt;
     if (step && !is_one(*step) && !ends_.max.empty()) {
       row_.remark("counts", ends_.last,
                   quoted(ends_.max) + " is read as counts of " + quoted(step->text) +

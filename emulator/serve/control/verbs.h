@@ -13,7 +13,7 @@ namespace understudy::emulator::serve {
 
 /// The version of messages and replies, MAJOR.MINOR. A change that breaks no client increments MINOR, any
 /// other change increments MAJOR. docs/control.md lists the changes.
-inline constexpr std::string_view kControlProtocol = "1.3";
+inline constexpr std::string_view kControlProtocol = "1.4";
 
 /// Replies with the result of `make`, or with the reason if it throws an error. After a null result, the
 /// reply is sent later.

@@ -216,7 +216,7 @@ TEST(ListRow, MayBeATitleBetweenOthers) {
   expect_rows("address,name,access", kRows);
   EXPECT_EQ(lines_in("address,name,access\n0x,,\n"),
             "l.csv:2:1: address: '0x' is not an address; expected 0 to 65535, or 0x0000 to 0xFFFF\n"
-            "l.csv:2:4: name: is missing; expected one in every row");
+            "l.csv:2:4: name: is missing; expected a name in every row");
 }
 
 }  // namespace list_rows_test

@@ -106,7 +106,7 @@ inline constexpr auto kAxisSpecialRows = section("D8x 特殊暫存器的功用(X
     axis_data(8161).means("chip register RDS: S-curve of the present deceleration", "系統暫存器 RDS"),
     axis_data(d8x::kRcmp5).means("chip register RCMP5: comparator 5", "系統暫存器 RCMP5"),
     axis_data(d8x::kRci).means("chip register RCI: steps of the present arc", "系統暫存器 RCI"),
-    axis_data(8164, R).means("state of the operation, 0 to 15: 0 stopped, 11 accelerating, 12 at speed, 13 decelerating, 14 waiting for INP", "操作狀態報告").shows<read_operation, Varies::while_moving>(),
+    axis_data(8164, R).means("state of the operation, 0 to 15: 0 stopped, 11 accelerating, 12 at speed, 13 decelerating, 14 waits for INP", "操作狀態報告").shows<read_operation, Varies::while_moving>(),
     axis_data(8165, R).means("latched value of counter 1", "COUNTER 鎖存數據 RLTC1").in("pulse").shows<read_latch, Varies::in_ticks>(0),
     axis_data(8166, R).means("latched value of counter 2", "COUNTER 鎖存數據 RLTC2").in("pulse").shows<read_latch, Varies::in_ticks>(1),
     axis_data(8167, R).means("latched value of counter 3", "COUNTER 鎖存數據 RLTC3").in("pulse").shows<read_latch, Varies::in_ticks>(2),

@@ -145,7 +145,7 @@ TEST(ControlMessages, IdentifyTellsWhichDaemonItIs) {
   const Json daemon = rig.ask(R"({"do":"identify"})")["daemon"];
   EXPECT_EQ(daemon["pid"], getpid());
   EXPECT_EQ(daemon["version"], program_version());
-  EXPECT_EQ(daemon["protocol"], "1.3");
+  EXPECT_EQ(daemon["protocol"], "1.4");
   EXPECT_EQ(daemon["bench"], "");
   ASSERT_EQ(daemon["lines"].size(), 1U);
   EXPECT_EQ(daemon["lines"][0]["name"], "rs485");

@@ -88,7 +88,7 @@ TEST(IgnoredCommands, SayWhyOnTheBusAndAmongTheEvents) {
             {{kServo, 1}, {kHome, 1}},
             "axis A ignores the homing: no input is its home (DIN4_Aaxis_Home = 0; "
             "choice home_unassigned = dropped)"},
-           {", nv: { DIN1_Aaxis_Ready: 1 }",
+           {", choices: { ready_gates: yes }, nv: { DIN1_Aaxis_Ready: 1 }",
             {{kServo, 1}, {kPulseLow, 100}, {kSpeed, 60}, {kMoveInc, 1}},
             "axis A ignores the move: its Ready input is off (DIN1_Aaxis_Ready; choice ready_gates = yes)"},
            {", choices: { pulse_rate_cap: command_dropped }",
