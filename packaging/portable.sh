@@ -52,6 +52,8 @@ for part in understudy man bash-completion zsh fish; do
   mkdir -p "$tree/share"
   cp -R "$installed/share/$part" "$tree/share/"
 done
+# The extension has a copy of the schemas, which would make the archive larger than 5 MB.
+rm -rf "$tree/share/understudy/vscode"
 rm -f "$tree/share/understudy/docs"  # links to pages that the archive does not contain
 cp "$documents/LICENSE" "$documents/CHANGELOG.md" "$tree/"
 for licence in "$documents"/third_party/*/LICENSE; do

@@ -144,7 +144,7 @@ std::vector<CsvRow> parse_csv(const std::string& text, const std::string& file) 
   std::ptrdiff_t alone = 0;
   for (std::size_t i = 0; i < text.size(); ++i)
     alone += text[i] == '\r' && (i + 1 == text.size() || text[i + 1] != '\n') ? 1 : 0;
-  if (alone <= feeds) return CsvReader(text, file).read();
+  if (alone == 0 || alone < feeds) return CsvReader(text, file).read();
   std::string lines = text;
   std::ranges::replace(lines, '\r', '\n');
   return CsvReader(lines, file).read();

@@ -210,19 +210,19 @@ std::optional<TypeMeaning> with_width(std::string_view key) {
   const std::size_t begin = key.find_first_of(kDigits);
   if (begin == std::string_view::npos) return std::nullopt;
   const std::size_t end = std::min(key.find_first_not_of(kDigits, begin), key.size());
-  std::string_view after = key.substr(end);
-  for (const std::string_view unit : {"bits", "bit", "位元", "位"}) {
+  const std::string_view after = key.substr(end);
+  // "bitsigned" is a bit and "signed", not bits.
+  for (const std::string_view unit : {"bits", "bit", "位元", "位", ""}) {
     if (!after.starts_with(unit)) continue;
-    after.remove_prefix(unit.size());
-    break;
+    const std::string kind = std::string(key.substr(0, begin)) + std::string(after.substr(unit.size()));
+    const auto* const found = std::find_if(kNumberWords.begin(), kNumberWords.end(),
+                                           [&](const auto& entry) { return entry.first == kind; });
+    if (found == kNumberWords.end()) continue;
+    const TypeWord* const word =
+        find_type(std::string(found->second) + std::string(key.substr(begin, end - begin)));
+    return word == nullptr ? std::nullopt : std::optional(meaning_of(*word));
   }
-  const std::string kind = std::string(key.substr(0, begin)) + std::string(after);
-  const auto* const found = std::find_if(kNumberWords.begin(), kNumberWords.end(),
-                                         [&](const auto& entry) { return entry.first == kind; });
-  if (found == kNumberWords.end()) return std::nullopt;
-  const TypeWord* const word =
-      find_type(std::string(found->second) + std::string(key.substr(begin, end - begin)));
-  return word == nullptr ? std::nullopt : std::optional(meaning_of(*word));
+  return std::nullopt;
 }
 
 /// Returns the meaning of a type with its low word first, as ESPHome writes it: "U_DWORD_R".

@@ -135,11 +135,11 @@ def test_a_recording_is_whole_at_the_end(tmp_path):
     subprocess.run([program, "replay", str(recording)], check=True, capture_output=True, timeout=20)
 
 
-@pytest.mark.parametrize("needed", [(0, 0), (0, 9), (1, 4), (2, 0)])
+@pytest.mark.parametrize("needed", [(0, 0), (0, 9), (1, 5), (2, 0)])
 def test_another_protocol_is_refused_and_ends(monkeypatch, folders, needed):
     monkeypatch.setattr("understudy.bench.NEEDED", needed)
     monkeypatch.setattr("tempfile.tempdir", str(folders))
-    with pytest.raises(understudy.WrongVersion, match=rf"speaks protocol 1\.3 .* needs {needed[0]}\.{needed[1]},"):
+    with pytest.raises(understudy.WrongVersion, match=rf"speaks protocol 1\.4 .* needs {needed[0]}\.{needed[1]},"):
         understudy.start(model="simple2-r3")
     assert list(folders.iterdir()) == []
 

@@ -207,7 +207,7 @@ TEST(RunOn, TakesFurtherStepsInADialogue) {
   EXPECT_TRUE(has(lines[1], R"("kind":"failed","error":"box.HW_Code is 49153; expected 1)")) << on.output;
   EXPECT_TRUE(has(lines[2], R"("kind":"skipped","error":)")) << on.output;
   EXPECT_TRUE(has(lines[3], R"("kind":"refused","error":"standard input)")) << on.output;
-  EXPECT_TRUE(has(lines[4], R"("kind":"refused","error":"a message is wrong)")) << on.output;
+  EXPECT_TRUE(has(lines[4], R"("kind":"refused","error":"a message is not valid)")) << on.output;
   EXPECT_EQ(served.ctl({"get", "Aaxis_Speed"}).output, speed);
 }
 
@@ -339,7 +339,7 @@ TEST(RunOn, ReusesOnlyRowsOfTheSameControllerAndPermissions) {
     words.insert(words.end(), flags.begin(), flags.end());
     const Finished finished = understudy(words);
     EXPECT_EQ(finished.exit_code, 0) << finished.errors;
-    return has(finished.output, "1 skipped, since they ran before");
+    return has(finished.output, "1 skipped, because they ran earlier");
   };
   const Words on{"--on", "line=" + box.path()};
   const Words may_write{"--on", "line=" + box.path(), "--allow-writes"};

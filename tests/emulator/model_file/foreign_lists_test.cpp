@@ -232,7 +232,7 @@ TEST(ForeignList, HasNumbersInTheUnit) {
       {"-1.5,1.5,V,0.1,0.5", "0 X u16 0..15 =5 0.1V\n"},
       {"\"0,0\",\"2,5\",kW,\"0,1\",", "0 X u16 0..25 0.1kW\n"},
       {"0.0,3.0,A,10,", "0 X u16 0..30 A\n"},
-      {"0.005,1.00,0.01Hz,,", "l.csv:2:5: min: '0.005' is not a multiple of '0.01Hz'; expected one"},
+      {"0.005,1.00,0.01Hz,,", "l.csv:2:5: min: '0.005' is not a multiple of '0.01Hz'; expected a multiple"},
       {"0.5,1,Hz,,",
        "l.csv:2:5: min: '0.5' is in the unit, but the row has no step; expected counts, or a unit such as "
        "0.01Hz"},

@@ -285,7 +285,7 @@ test("two clients are refused", async (t) => {
   await first.start(port);
   await first.initializeRequest();
   await second.start(port);
-  await refused(second.initializeRequest(), /another client is being served/);
+  await refused(second.initializeRequest(), /another client is connected/);
   const { yaml } = bench(t, "simple2-r3");
   const initialized = first.waitForEvent("initialized");
   await first.launchRequest({ bench: yaml, stopOnEntry: true });
