@@ -131,8 +131,8 @@ Value RowNumbers::limit(bool is_highest) const {
     return value_of_real(is_highest ? kGreatest : -kGreatest);
   }
   if (shape_.is_flag) return is_highest ? 1 : 0;
-  constexpr int kByte = 8;
-  if (shape_.kind == TypeKind::number && shape_.bits == kByte) {
+  constexpr int kBitsOfByte = 8;
+  if (shape_.kind == TypeKind::number && shape_.bits == kBitsOfByte) {
     if (is_signed(shape_.type)) return is_highest ? INT8_MAX : INT8_MIN;
     return is_highest ? UINT8_MAX : 0;
   }
