@@ -104,7 +104,8 @@ void BoxExecutor::put_back() {
 
 void BoxExecutor::put_back_surroundings() {
   // Switches come before the power, so the last word is that of a power cycle.
-  std::ranges::stable_partition(undoing_, [](const auto& words) { return words[0] != "power"; });
+  std::stable_partition(undoing_.begin(), undoing_.end(),
+                        [](const auto& words) { return words[0] != "power"; });
   for (const std::vector<std::string>& words : std::exchange(undoing_, {})) {
     std::string why;
     try {
