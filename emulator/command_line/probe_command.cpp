@@ -84,6 +84,13 @@ void judge_with_measured(std::vector<Proof>& proofs, OnBox& stage) {
     if (!measured.empty() && proof.is_played()) proof.rehearse(stage, measured);
 }
 
+/// Returns true if the controller may still hold settings of earlier proofs, which look like another option:
+/// writes were allowed, and no rig has reset the memory before each case.
+bool may_hold_settings(const OnArguments& on) {
+  const bool writes = on.allow_writes || on.allow_memory || on.allow_outputs || on.allow_motion;
+  return writes && on.rig.empty();
+}
+
 box::EvidenceFile evidence_of(const Model& model, const ProbeArguments& arguments,
                               const std::vector<Proof>& proofs) {
   box::EvidenceFile evidence{.box = arguments.box, .port = arguments.port};
@@ -100,6 +107,11 @@ box::EvidenceFile evidence_of(const Model& model, const ProbeArguments& argument
                          .why_not = proof.why_not};
     for (const OptionCase& one : proof.cases)
       if (!one.why.empty()) row.seen[one.option] = one.why;
+    const bool is_another = row.state == "measured" && row.options.front() != row.expected;
+    if (is_another && may_hold_settings(arguments.on)) {
+      row.state = "undecided";
+      row.options.push_back(row.expected);
+    }
     evidence.rows.push_back(std::move(row));
   }
   return evidence;

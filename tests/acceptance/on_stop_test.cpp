@@ -117,6 +117,29 @@ TEST(RunOnStops, TakesAnswersAtATerminal) {
   EXPECT_EQ(terminal.wait(kPatience), 0);
 }
 
+/// While a macro is being entered, an RS-M8194H refuses the stop, so the macro is closed first.
+TEST(RunOnStops, AnRsM8194hWhoseMacroIsOpen) {
+  const PrivateFolder folder;
+  const auto served = RunningUnderstudy::of_bench(
+      "understudy: 1\nlines:\n  line:\n    link: port\n    stations:\n      - { name: box, model: rs-m8194h "
+      "}\n");
+  const auto errors_of = [&](const std::string& steps) {
+    const std::string file =
+        folder.write("case.yaml",
+                     "understudy: 1\nbench:\n  lines:\n    line:\n      stations:\n        - { name: box, "
+                     "model: rs-m8194h }\n"
+                     "steps:\n" +
+                         steps + "  - command: { box: RSM_FIXED_MOVE X 0 }\n  - assert: box.LP_X == 1\n");
+    return understudy({"run", file, "--on", "line=" + served->port(), "--allow-motion"}).errors;
+  };
+  EXPECT_EQ(errors_of(""), "stop: box: RSM_EMERGENCY_STOP 0: done\n");
+  for (const char* const create : {"RSM_MP_CREATE 1", "RSM_MP_ISR_CREATE 1"}) {
+    const std::string errors = errors_of(std::string("  - command: { box: ") + create + " }\n");
+    EXPECT_TRUE(has(errors, "stop: box: RSM_EMERGENCY_STOP 0: REFUSED\n")) << create << errors;
+    EXPECT_TRUE(errors.ends_with("stop: box: RSM_EMERGENCY_STOP 0: done\n")) << create << errors;
+  }
+}
+
 /// A bit of the stop changes nothing else in its register.
 TEST(RunOnStops, AModelThatAFileDescribes) {
   const PrivateFolder folder;

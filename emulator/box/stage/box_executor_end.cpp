@@ -162,7 +162,10 @@ void BoxExecutor::stop_device(std::size_t number) {
     say("NOT SENT: " + std::string(model.name) + " has no stop over the line; stop the machine by hand");
   for (const StopStep& step : model.stop) {
     if (model.rtu) {
-      say(send_stop(number, *line, step));
+      const std::string what = send_stop(number, *line, step);
+      say(what);
+      // The steps between a command and its repetition are only for a controller that refuses it at first.
+      if (what == std::string(model.stop.back().text) + ": done") break;
       continue;
     }
     const std::string text(step.text);
