@@ -107,10 +107,8 @@ constexpr ProofRow kProofs[] = {
 };
 
 // While a macro is being entered, the module refuses the stop. Then the macro is closed first.
-constexpr StopStep kStop[] = {{"RSM_EMERGENCY_STOP 0"},
-                              {"RSM_MACRO_MP_CLOSE"},
-                              {"RSM_MACRO_MP_ISR_CLOSE"},
-                              {"RSM_EMERGENCY_STOP 0"}};
+constexpr StopStep kStop[] = {
+    {"RSM_EMERGENCY_STOP 0"}, {"RSM_MACRO_MP_CLOSE"}, {"RSM_MACRO_MP_ISR_CLOSE"}, {"RSM_EMERGENCY_STOP 0"}};
 
 }  // namespace
 

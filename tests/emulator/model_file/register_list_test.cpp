@@ -112,7 +112,8 @@ TEST(RegisterList, SaysWhatIsWrongAndWhere) {
       {" {bad",
        "l.csv:1:1: registers: is JSON, but no Thing with \"properties\"; expected a list saved as CSV"},
       {"address,name,type,words\n0,A,u32,1\n1,B,u16,1\n",
-       "l.csv:3:1: address: '1' is taken by A in line 2; expected a free address in the table holding (A has the "
+       "l.csv:3:1: address: '1' is taken by A in line 2; expected a free address in the table holding (A has "
+       "the "
        "words '1', but 32 bits)"},
       {"address,name,min,max,unit,default\n0,A,0,\"65,535\",V,0\n",
        "l.csv:2:7: max: '65,535' is in the unit, but the row has no step; expected counts such as 65535, or "
