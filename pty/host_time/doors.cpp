@@ -128,9 +128,21 @@ bool wait_for_socket(int descriptor, int number, int flags) {
   }
 }
 
+/// Returns true for one end of a socketpair(). Its other end is a process of the host; other sockets may lead
+/// elsewhere, for example to the control socket of the bench, and are waited for in real time.
+bool is_of_a_pair(int descriptor) {
+  sockaddr_storage peer = {};
+  socklen_t size = sizeof peer;
+  const int error = errno;
+  const int result = UNDERSTUDY_REAL(getpeername)(descriptor, reinterpret_cast<sockaddr*>(&peer), &size);
+  errno = error;
+  return result == 0 && peer.ss_family == AF_UNIX && size == sizeof(sa_family_t);
+}
+
 /// Waits until a read of a socket that is no door would not block, if the socket has a timeout (SO_RCVTIMEO):
 /// the kernel would count it in real time. Returns false, with errno set, if the read must not be tried.
 bool wait_for_peer(int descriptor, int flags) {
+  if (!is_of_a_pair(descriptor)) return true;
   timeval length = {};
   socklen_t size = sizeof length;
   const int error = errno;
