@@ -1,5 +1,6 @@
 # cmake -D OUTPUT=web_files.cpp -D FILES="name=path|name=path" -P embed.cmake
-# Writes a source that contains the files.
+# Writes a source that contains the files. Lines of our modules that are only a comment are left out, because the page
+# has to stay small.
 string(REPLACE "|" ";" pairs "${FILES}")
 set(arrays "")
 set(rows "")
@@ -7,7 +8,14 @@ set(number 0)
 foreach(pair IN LISTS pairs)
   string(REGEX MATCH "^([^=]+)=(.+)$" matched "${pair}")
   set(name "${CMAKE_MATCH_1}")
-  file(READ "${CMAKE_MATCH_2}" hex HEX)
+  set(path "${CMAKE_MATCH_2}")
+  if(path MATCHES "/web/.+\\.js$")
+    file(READ "${path}" text)
+    string(REGEX REPLACE "\n *//[^\n]*" "" text "${text}")
+    set(path "${OUTPUT}.js")
+    file(WRITE "${path}" "${text}")
+  endif()
+  file(READ "${path}" hex HEX)
   string(LENGTH "${hex}" digits)
   math(EXPR size "${digits} / 2")
   string(REGEX REPLACE "(................................)" "\\1\n" hex "${hex}")

@@ -85,7 +85,7 @@ TEST(PageFiles, AreServedWithTheirTypesAndAStrictPolicy) {
   }
   std::size_t bytes = 0;
   for (const EmbeddedFile& file : embedded_files()) bytes += file.bytes.size();
-  EXPECT_LT(bytes, 300U * 1024);
+  EXPECT_LT(bytes, 300'000U);
 }
 
 /// A slow connection needs no further round trips for them.
